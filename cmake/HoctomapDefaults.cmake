@@ -1,0 +1,38 @@
+# SPDX-License-Identifier: BSD-3-Clause
+# Compiler settings shared by every target: standard, warnings, hardening, sanitizers, ccache.
+option(BUILD_TESTING "Build the tests" ON)
+option(HOCTOMAP_WERROR "Treat warnings as errors" OFF)
+option(HOCTOMAP_SANITIZE "Build with AddressSanitizer and UndefinedBehaviorSanitizer" OFF)
+
+set(CMAKE_CXX_STANDARD 20)
+set(CMAKE_CXX_STANDARD_REQUIRED ON)
+set(CMAKE_CXX_EXTENSIONS OFF)
+set(CMAKE_POSITION_INDEPENDENT_CODE ON)
+set(CMAKE_EXPORT_COMPILE_COMMANDS ON)
+
+find_program(HOCTOMAP_CCACHE ccache)
+if(HOCTOMAP_CCACHE AND NOT CMAKE_CXX_COMPILER_LAUNCHER)
+  set(CMAKE_CXX_COMPILER_LAUNCHER "${HOCTOMAP_CCACHE}")
+endif()
+
+add_library(hoctomap_flags INTERFACE)
+target_compile_options(hoctomap_flags INTERFACE
+  -Wall -Wextra -Wpedantic -Wshadow -Wconversion -Wsign-conversion -Wold-style-cast
+  -Wnon-virtual-dtor -Woverloaded-virtual -Wnull-dereference -Wduplicated-cond
+  # The octree update is bit-exact with stock OctoMap only without fused multiply-add.
+  -ffp-contract=off
+  -fstack-protector-strong)
+target_link_options(hoctomap_flags INTERFACE -Wl,-z,relro,-z,now -Wl,--as-needed)
+if(HOCTOMAP_WERROR)
+  target_compile_options(hoctomap_flags INTERFACE -Werror)
+endif()
+if(HOCTOMAP_SANITIZE)
+  target_compile_options(hoctomap_flags INTERFACE
+    -fsanitize=address,undefined -fno-sanitize-recover=all -fno-omit-frame-pointer
+    # GCC 12 reports false null dereferences in sanitized code.
+    -Wno-null-dereference)
+  target_link_options(hoctomap_flags INTERFACE -fsanitize=address,undefined)
+else()
+  target_compile_options(hoctomap_flags INTERFACE
+    $<$<NOT:$<CONFIG:Debug>>:-U_FORTIFY_SOURCE$<SEMICOLON>-D_FORTIFY_SOURCE=2>)
+endif()

@@ -1,0 +1,42 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "hoctomap/existence/InverseExistenceModel.h"
+
+namespace hoctomap {
+
+/// Range noise: sigma(z) = noise_constant + noise_quadratic z^2, metres.
+struct RangeNoise {
+  double constant = 0.0;      ///< metres
+  double quadratic = 1.5e-3;  ///< 1/m
+  [[nodiscard]] double sigma(double range) const { return constant + quadratic * range * range; }
+};
+
+/// Parameters of the visibility model.
+struct BeamExistenceConfig {
+  double pose_shift = 0.02;   ///< m, largest sideways error of a node or scan pose that is searched out
+  double pose_depth = 0.01;   ///< m, the same along the beam
+  double window = 0.003;      ///< m, half width of the neighbourhood a beam is compared with
+  double tolerance = 0.004;   ///< m, added to 0.87 voxels and 3 sigma of the range
+  int min_beams = 40;         ///< present + absent beams below which a scan says nothing
+  double min_visible = 0.10;  ///< share of the node's beams that must be informative
+  double min_in_view = 0.35;  ///< share of the node that must be inside the image
+  int max_beams = 400;        ///< beams used a node (strided)
+  RangeNoise noise;
+};
+
+/// The visibility model of docs/decisions/0006: a z-buffer of the node's occupied voxels against the scan's
+/// own range image, with the error of the pose searched out per node.
+class BeamExistenceModel : public InverseExistenceModel {
+ public:
+  explicit BeamExistenceModel(const BeamExistenceConfig& config) : config_(config) {}
+
+  [[nodiscard]] std::vector<Evidence> evidence(
+      const MapHierarchy& hierarchy, const Measurement& measurement, const std::vector<NodeId>& nodes,
+      const std::vector<ExistenceParameters>& parameters) const override;
+
+ private:
+  BeamExistenceConfig config_;
+};
+
+}  // namespace hoctomap

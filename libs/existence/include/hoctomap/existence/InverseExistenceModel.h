@@ -1,0 +1,37 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "hoctomap/existence/ExistenceFilter.h"
+#include "hoctomap/geometry/Measurement.h"
+#include "hoctomap/hierarchy/MapHierarchy.h"
+
+namespace hoctomap {
+
+/// What one measurement says of one node: beams that should meet its occupied voxels, by where they end.
+struct Evidence {
+  std::uint32_t present = 0;   ///< they end on the node
+  std::uint32_t absent = 0;    ///< they end beyond it
+  std::uint32_t occluded = 0;  ///< they end before it
+  bool informative = false;    ///< enough beams to say anything; otherwise P(n | z_t) = P(n)
+  double p_measurement = 0.5;  ///< P(n | z_t)
+
+  /// Whether the measurement contradicts the node: it takes no segment of this scan.
+  [[nodiscard]] bool contradicts() const { return informative && 2 * present < present + absent; }
+};
+
+/// P(n | z_t), specific to the sensor and the segmentation (Section III-D).
+class InverseExistenceModel {
+ public:
+  virtual ~InverseExistenceModel() = default;
+
+  /// Evidence for each of `nodes`, in their order, from the whole measurement, taken before anything of it is
+  /// integrated. `parameters[i]` belong to `nodes[i]`.
+  [[nodiscard]] virtual std::vector<Evidence> evidence(
+      const MapHierarchy& hierarchy, const Measurement& measurement, const std::vector<NodeId>& nodes,
+      const std::vector<ExistenceParameters>& parameters) const = 0;
+};
+
+}  // namespace hoctomap

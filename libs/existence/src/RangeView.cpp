@@ -1,0 +1,81 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "RangeView.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+namespace hoctomap {
+
+namespace {
+
+constexpr float kSphericalStep = 0.12F * std::numbers::pi_v<float> / 180.0F;
+constexpr float kNearest = 0.05F;  // m; nearer points have no useful projection
+
+struct Angles {
+  float azimuth;    // to the right, as u
+  float elevation;  // downwards, as v
+  float range;
+};
+
+Angles anglesOf(const Eigen::Vector3f& p) {
+  const float range = p.norm();
+  return {-std::atan2(p.y(), p.x()), -std::asin(std::clamp(p.z() / range, -1.0F, 1.0F)), range};
+}
+
+}  // namespace
+
+RangeView::RangeView(const Measurement& z)
+    : sensor_T_world_(toIsometry(z.world_T_sensor).inverse().cast<float>()) {
+  if (!z.image) {
+    makeSpherical(z);
+    return;
+  }
+  const PinholeCamera& camera = z.image->camera;
+  width_ = camera.width;
+  height_ = camera.height;
+  focal_ = static_cast<float>(camera.fx);
+  fy_ = static_cast<float>(camera.fy);
+  cx_ = static_cast<float>(camera.cx);
+  cy_ = static_cast<float>(camera.cy);
+  range_ = z.image->depth;
+}
+
+void RangeView::makeSpherical(const Measurement& z) {
+  spherical_ = true;
+  focal_ = fy_ = 1.0F / kSphericalStep;
+  std::vector<Angles> angles;
+  angles.reserve(z.world_points.size());
+  Eigen::AlignedBox2f field;
+  for (const auto& p : z.world_points) {
+    const Eigen::Vector3f in_sensor = sensor_T_world_ * p;
+    if (in_sensor.norm() < kNearest) continue;
+    angles.push_back(anglesOf(in_sensor));
+    field.extend(Eigen::Vector2f(angles.back().azimuth, angles.back().elevation));
+  }
+  if (angles.empty()) return;
+  cx_ = field.min().x();
+  cy_ = field.min().y();
+  width_ = static_cast<int>(field.sizes().x() / kSphericalStep) + 1;
+  height_ = static_cast<int>(field.sizes().y() / kSphericalStep) + 1;
+  range_.assign(index(0, height_), 0.0F);
+  for (const auto& a : angles) {
+    const int u = std::min(width_ - 1, static_cast<int>((a.azimuth - cx_) / kSphericalStep));
+    const int v = std::min(height_ - 1, static_cast<int>((a.elevation - cy_) / kSphericalStep));
+    float& nearest = range_[index(u, v)];
+    if (nearest == 0.0F || a.range < nearest) nearest = a.range;
+  }
+}
+
+std::optional<RangeView::Pixel> RangeView::project(const Eigen::Vector3f& world_point) const {
+  const Eigen::Vector3f p = sensor_T_world_ * world_point;
+  if (spherical_) {
+    if (p.norm() < kNearest) return std::nullopt;
+    const Angles a = anglesOf(p);
+    return Pixel{(a.azimuth - cx_) / kSphericalStep, (a.elevation - cy_) / kSphericalStep, a.range};
+  }
+  if (p.x() < kNearest) return std::nullopt;
+  return Pixel{cx_ - focal_ * p.y() / p.x(), cy_ - fy_ * p.z() / p.x(), p.x()};
+}
+
+}  // namespace hoctomap

@@ -1,0 +1,78 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <map>
+#include <memory>
+#include <vector>
+
+#include "hoctomap/hierarchy/MapNode.h"
+#include "hoctomap/hierarchy/Relation.h"
+
+namespace hoctomap {
+
+/// The map M = {n_1, ..., n_k} of Eq. 1: a tree of map nodes, and their only owner.
+///
+/// Properties:
+///  1. there is always exactly one root; its id is 0, its frame the world frame;
+///  2. every other node has a parent in the hierarchy, and `children` mirrors `parent`;
+///  3. ids are given in order of creation and never again;
+///  4. `remove` and `reparent` keep the world pose of every remaining node; `move` moves a node with its
+///  whole
+///     subtree rigidly;
+///  5. traversal is parents before children, siblings by id.
+class MapHierarchy {
+ public:
+  explicit MapHierarchy(Label root_label, NodeMap root_map);
+
+  MapHierarchy(MapHierarchy&&) noexcept = default;
+  MapHierarchy& operator=(MapHierarchy&&) noexcept = default;
+
+  [[nodiscard]] std::size_t size() const { return nodes_.size(); }
+  [[nodiscard]] bool contains(NodeId id) const { return nodes_.contains(id); }
+  /// @throws std::out_of_range if there is no such node.
+  [[nodiscard]] const MapNode& node(NodeId id) const;
+  [[nodiscard]] MapNode& node(NodeId id);
+  [[nodiscard]] const MapNode& root() const { return node(kRootId); }
+  [[nodiscard]] MapNode& root() { return node(kRootId); }
+
+  /// t_i^global (Eq. 4): the composition of the transforms from the root down to the node.
+  [[nodiscard]] Pose world_T_node(NodeId id) const;
+  /// Distance to the root, which has depth 0.
+  [[nodiscard]] std::size_t depth(NodeId id) const;
+  /// The node's oriented box in the world: occupied voxels padded by one voxel. Empty without any.
+  [[nodiscard]] Obb box(NodeId id) const;
+  /// What relations are asked about.
+  [[nodiscard]] NodeView view(NodeId id) const;
+  /// All ids, parents before children, siblings ascending.
+  [[nodiscard]] std::vector<NodeId> preorder() const;
+  /// All ids, ascending.
+  [[nodiscard]] std::vector<NodeId> ids() const;
+  [[nodiscard]] NodeId nextId() const { return next_id_; }
+
+  /// Adds a node under `parent` so that its frame in the world is `world_T_node`: t_i = t_p^global^-1 o it.
+  /// @throws std::out_of_range if there is no such parent.
+  NodeId add(Label label, NodeMap map, const Pose& world_T_node, NodeId parent);
+
+  /// Adds a node of a stored map, with its own id. Parents come first.
+  /// @throws std::invalid_argument if the id is taken; std::out_of_range if there is no such parent.
+  MapNode& restore(NodeId id, Label label, NodeMap map, const Pose& parent_T_node, NodeId parent);
+  void setNextId(NodeId id);
+
+  /// Removes a node and hands it out; its children go to the deepest remaining ancestor, its parent.
+  /// @throws std::invalid_argument for the root.
+  MapNode remove(NodeId id);
+
+  /// t_i <- t_i o t (Section III-D); children follow.
+  /// @throws std::invalid_argument for the root.
+  void move(NodeId id, const Pose& motion);
+
+  /// Hangs a node under another parent and keeps its world pose.
+  /// @throws std::invalid_argument if that would close a cycle, or for the root.
+  void reparent(NodeId id, NodeId parent);
+
+ private:
+  std::map<NodeId, std::unique_ptr<MapNode>> nodes_;
+  NodeId next_id_{1};
+};
+
+}  // namespace hoctomap

@@ -1,0 +1,48 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <vector>
+
+#include "hoctomap/geometry/Obb.h"
+#include "hoctomap/geometry/Pose.h"
+#include "hoctomap/hierarchy/Label.h"
+#include "hoctomap/hierarchy/NodeId.h"
+#include "hoctomap/octree/NodeMap.h"
+
+namespace hoctomap {
+
+/// A node n_i = (m_i, t_i, p_i, C_i, l_i) of Eq. 2, with its probability of existence (Section III-D).
+/// The tree structure (t, p, C) is changed by `MapHierarchy` only.
+class MapNode {
+ public:
+  MapNode(NodeId id, Label label, NodeMap map);
+
+  [[nodiscard]] NodeId id() const { return id_; }
+  [[nodiscard]] const Label& label() const { return label_; }                      ///< l_i
+  [[nodiscard]] const std::optional<NodeId>& parent() const { return parent_; }    ///< p_i
+  [[nodiscard]] const std::vector<NodeId>& children() const { return children_; }  ///< C_i, ascending
+  [[nodiscard]] const Pose& parent_T_node() const { return parent_T_node_; }       ///< t_i
+  [[nodiscard]] const NodeMap& map() const { return map_; }                        ///< m_i
+  [[nodiscard]] NodeMap& map() { return map_; }
+
+  /// logit P(n | z_1:t). Log-odds, because Eq. 8 is a sum there.
+  double existence_log_odds = 0.0;
+  [[nodiscard]] double existence() const;
+
+  std::uint64_t first_scan = 0;  ///< scan that created the node
+  std::uint64_t last_scan = 0;   ///< last scan that updated its map
+  std::uint64_t version = 0;     ///< last scan that changed the node's map; names its file
+
+ private:
+  friend class MapHierarchy;
+  NodeId id_;
+  Label label_;
+  std::optional<NodeId> parent_;
+  std::vector<NodeId> children_;
+  Pose parent_T_node_;
+  NodeMap map_;
+};
+
+}  // namespace hoctomap

@@ -1,0 +1,133 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "hoctomap/hierarchy/MapHierarchy.h"
+
+#include <algorithm>
+#include <stdexcept>
+#include <string>
+#include <utility>
+
+namespace hoctomap {
+
+namespace {
+
+void insertChild(std::vector<NodeId>& children, NodeId id) {
+  children.insert(std::lower_bound(children.begin(), children.end(), id), id);
+}
+
+void eraseChild(std::vector<NodeId>& children, NodeId id) {
+  std::erase(children, id);
+}
+
+}  // namespace
+
+MapHierarchy::MapHierarchy(Label root_label, NodeMap root_map) {
+  nodes_.emplace(kRootId, std::make_unique<MapNode>(kRootId, std::move(root_label), std::move(root_map)));
+}
+
+const MapNode& MapHierarchy::node(NodeId id) const {
+  const auto found = nodes_.find(id);
+  if (found == nodes_.end()) throw std::out_of_range("no node " + std::to_string(id.value));
+  return *found->second;
+}
+
+MapNode& MapHierarchy::node(NodeId id) {
+  return const_cast<MapNode&>(std::as_const(*this).node(id));
+}
+
+Pose MapHierarchy::world_T_node(NodeId id) const {  // Eq. (4)
+  const MapNode& n = node(id);
+  return n.parent_ ? world_T_node(*n.parent_) + n.parent_T_node_ : n.parent_T_node_;
+}
+
+std::size_t MapHierarchy::depth(NodeId id) const {
+  std::size_t depth = 0;
+  for (const MapNode* n = &node(id); n->parent_; n = &node(*n->parent_)) ++depth;
+  return depth;
+}
+
+Obb MapHierarchy::box(NodeId id) const {
+  const NodeMap& map = node(id).map();
+  return Obb{toIsometry(world_T_node(id)), map.occupiedBox()}.padded(map.resolution());
+}
+
+NodeView MapHierarchy::view(NodeId id) const {
+  return {node(id).label(), box(id), &node(id).map()};
+}
+
+std::vector<NodeId> MapHierarchy::preorder() const {
+  std::vector<NodeId> order;
+  order.reserve(nodes_.size());
+  std::vector<NodeId> stack{kRootId};
+  while (!stack.empty()) {
+    order.push_back(stack.back());
+    stack.pop_back();
+    const auto& children = node(order.back()).children_;
+    stack.insert(stack.end(), children.rbegin(), children.rend());
+  }
+  return order;
+}
+
+std::vector<NodeId> MapHierarchy::ids() const {
+  std::vector<NodeId> ids;
+  ids.reserve(nodes_.size());
+  for (const auto& [id, unused] : nodes_) ids.push_back(id);
+  return ids;
+}
+
+NodeId MapHierarchy::add(Label label, NodeMap map, const Pose& world_T_node, NodeId parent) {
+  const Pose parent_T_node = orthonormalized(-this->world_T_node(parent) + world_T_node);
+  const NodeId id = next_id_;
+  restore(id, std::move(label), std::move(map), parent_T_node, parent);
+  return id;
+}
+
+MapNode& MapHierarchy::restore(NodeId id, Label label, NodeMap map, const Pose& parent_T_node,
+                               NodeId parent) {
+  MapNode& parent_node = node(parent);
+  auto added = std::make_unique<MapNode>(id, std::move(label), std::move(map));
+  added->parent_ = parent;
+  added->parent_T_node_ = parent_T_node;
+  const auto [position, inserted] = nodes_.emplace(id, std::move(added));
+  if (!inserted) throw std::invalid_argument("node id " + std::to_string(id.value) + " is taken");
+  insertChild(parent_node.children_, id);
+  next_id_ = std::max(next_id_, NodeId{id.value + 1});
+  return *position->second;
+}
+
+void MapHierarchy::setNextId(NodeId id) {
+  if (id < next_id_) throw std::invalid_argument("the next node id would repeat an id");
+  next_id_ = id;
+}
+
+MapNode MapHierarchy::remove(NodeId id) {
+  if (id == kRootId) throw std::invalid_argument("the root cannot be removed");
+  const std::vector<NodeId> orphans = node(id).children_;
+  const NodeId parent = *node(id).parent_;
+  for (const NodeId orphan : orphans) reparent(orphan, parent);
+  eraseChild(node(parent).children_, id);
+  MapNode removed = std::move(node(id));
+  nodes_.erase(id);
+  return removed;
+}
+
+void MapHierarchy::move(NodeId id, const Pose& motion) {
+  if (id == kRootId) throw std::invalid_argument("the root cannot be moved");
+  MapNode& n = node(id);
+  n.parent_T_node_ = orthonormalized(n.parent_T_node_ + motion);
+}
+
+void MapHierarchy::reparent(NodeId id, NodeId parent) {
+  if (id == kRootId) throw std::invalid_argument("the root has no parent");
+  for (const MapNode* n = &node(parent);; n = &node(*n->parent_)) {
+    if (n->id() == id) throw std::invalid_argument("a node cannot hang below itself");
+    if (!n->parent_) break;
+  }
+  MapNode& n = node(id);
+  const Pose world_T_n = world_T_node(id);
+  eraseChild(node(*n.parent_).children_, id);
+  insertChild(node(parent).children_, id);
+  n.parent_ = parent;
+  n.parent_T_node_ = orthonormalized(-world_T_node(parent) + world_T_n);
+}
+
+}  // namespace hoctomap

@@ -1,0 +1,85 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "hoctomap/hierarchy/Relation.h"
+
+#include <algorithm>
+#include <utility>
+
+#include "hoctomap/hierarchy/MapHierarchy.h"
+
+namespace hoctomap {
+
+namespace {
+
+class LambdaRelation : public Relation {
+ public:
+  LambdaRelation(std::string name, std::function<bool(const NodeView&, const NodeView&)> holds)
+      : name_(std::move(name)), holds_(std::move(holds)) {}
+  [[nodiscard]] bool holds(const NodeView& above, const NodeView& below) const override {
+    return holds_(above, below);
+  }
+  [[nodiscard]] std::string name() const override { return name_; }
+
+ private:
+  std::string name_;
+  std::function<bool(const NodeView&, const NodeView&)> holds_;
+};
+
+bool isInSubtree(const MapHierarchy& hierarchy, NodeId id, NodeId subtree_root) {
+  for (const MapNode* n = &hierarchy.node(id);; n = &hierarchy.node(*n->parent())) {
+    if (n->id() == subtree_root) return true;
+    if (!n->parent()) return false;
+  }
+}
+
+}  // namespace
+
+std::unique_ptr<Relation> makeRelation(std::string name,
+                                       std::function<bool(const NodeView&, const NodeView&)> holds) {
+  return std::make_unique<LambdaRelation>(std::move(name), std::move(holds));
+}
+
+void RelationSet::add(std::unique_ptr<Relation> relation) {
+  relations_.push_back(std::move(relation));
+}
+
+bool RelationSet::holds(const NodeView& above, const NodeView& below) const {
+  const Relation* holding = nullptr;
+  for (const auto& relation : relations_) {
+    if (!relation->holds(above, below)) continue;
+    if (holding != nullptr) {
+      throw RelationConflict("relations '" + holding->name() + "' and '" + relation->name() +
+                             "' both hold between nodes labelled '" + above.label.name + "' and '" +
+                             below.label.name + "'; relations must be mutually exclusive");
+    }
+    holding = relation.get();
+  }
+  return holding != nullptr;
+}
+
+std::vector<NodeId> RelationSet::candidateAncestors(const MapHierarchy& hierarchy,
+                                                    const NodeView& below) const {  // Eq. (6)
+  std::vector<NodeId> candidates;
+  for (const NodeId id : hierarchy.ids()) {
+    if (holds(hierarchy.view(id), below)) candidates.push_back(id);
+  }
+  return candidates;
+}
+
+NodeId RelationSet::deepestAncestor(const MapHierarchy& hierarchy, const NodeView& below,
+                                    const NodeId* except) const {  // Eq. (7)
+  NodeId best = kRootId;
+  bool found = false;
+  for (const NodeId id : candidateAncestors(hierarchy, below)) {
+    if (except != nullptr && isInSubtree(hierarchy, id, *except)) continue;
+    const auto depth = hierarchy.depth(id);
+    const auto best_depth = hierarchy.depth(best);
+    const bool better = !found || depth > best_depth ||
+                        (depth == best_depth && tie_break_ &&
+                         tie_break_(hierarchy.view(id), hierarchy.view(best), below) < 0);
+    if (better) best = id;
+    found = true;
+  }
+  return best;
+}
+
+}  // namespace hoctomap

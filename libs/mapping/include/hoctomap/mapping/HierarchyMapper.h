@@ -1,0 +1,78 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <map>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "hoctomap/existence/InverseExistenceModel.h"
+#include "hoctomap/hierarchy/MapHierarchy.h"
+#include "hoctomap/mapping/AssociationFunction.h"
+#include "hoctomap/mapping/LabelProfile.h"
+#include "hoctomap/mapping/LabelingFunction.h"
+#include "hoctomap/mapping/MeasurementSource.h"
+#include "hoctomap/mapping/Segmentation.h"
+#include "hoctomap/mapping/UpdateReport.h"
+
+namespace hoctomap {
+
+/// The exchangeable parts of the framework (Section III): S, L, f_A, R and P(n | z_t), and the update engine.
+struct MappingStrategies {
+  std::unique_ptr<Segmentation> segmentation;
+  std::unique_ptr<LabelingFunction> labeling;
+  std::unique_ptr<AssociationFunction> association;
+  RelationSet relations;
+  std::unique_ptr<InverseExistenceModel> existence;  ///< null: nodes are never removed
+  std::unique_ptr<ScanUpdate> update = makeReferenceScanUpdate();
+};
+
+struct MappingConfig {
+  double max_range = -1.0;  ///< m, of the sensor; negative: no limit
+  bool bounded = true;      ///< clip beams to the node's box (IV-B); false only for the monolithic map
+};
+
+/// Builds a hierarchy from measurements: the map update of Section III-C.
+class HierarchyMapper {
+ public:
+  /// @throws ConfigError if there is no profile for the root's label.
+  HierarchyMapper(MappingConfig config, LabelProfiles profiles, MappingStrategies strategies);
+
+  /// Continues an existing hierarchy.
+  HierarchyMapper(MappingConfig config, LabelProfiles profiles, MappingStrategies strategies,
+                  MapHierarchy hierarchy);
+
+  /// Integrates one measurement.
+  UpdateReport integrate(const Measurement& z);
+
+  /// Applies a perceived movement (Section III-D) before scan number `scan`. A movement of a node that does
+  /// not exist (any more) changes nothing and is a warning of the report.
+  UpdateReport integrate(const ObjectMotion& motion, std::uint64_t scan);
+
+  [[nodiscard]] const MapHierarchy& hierarchy() const { return hierarchy_; }
+  /// Nodes that were removed since the construction of the mapper, in order, with the world pose they had.
+  [[nodiscard]] const std::vector<RemovedNode>& removed() const { return removed_; }
+
+ private:
+  struct LabelledPart;
+  struct NodeEvidence;
+
+  std::vector<LabelledPart> segmentAndLabel(const Measurement& z) const;
+  NodeEvidence gatherEvidence(const Measurement& z) const;
+  std::vector<NodeId> associate(const Measurement& z, const std::vector<LabelledPart*>& parts,
+                                const NodeEvidence& evidence, UpdateReport& report);
+  NodeId createNode(const Measurement& z, const LabelledPart& part, UpdateReport& report);
+  void updateMaps(const Measurement& z, const std::vector<LabelledPart*>& parts,
+                  const std::vector<NodeId>& nodes, UpdateReport& report);
+  void adoptRelated(const std::vector<NodeId>& created);
+  void applyExistence(const Measurement& z, const NodeEvidence& evidence, UpdateReport& report);
+  [[nodiscard]] const LabelProfile& profile(const Label& label) const;
+
+  MappingConfig config_;
+  LabelProfiles profiles_;
+  MappingStrategies strategies_;
+  MapHierarchy hierarchy_;
+  std::vector<RemovedNode> removed_;
+};
+
+}  // namespace hoctomap

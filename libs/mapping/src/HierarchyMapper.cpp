@@ -1,0 +1,278 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "hoctomap/mapping/HierarchyMapper.h"
+
+#include <tbb/parallel_for.h>
+
+#include <algorithm>
+#include <array>
+#include <chrono>
+#include <utility>
+
+#include "NodeUpdate.h"
+#include "hoctomap/geometry/Errors.h"
+#include "hoctomap/geometry/PcaFrame.h"
+
+namespace hoctomap {
+
+namespace {
+
+/// Adds the wall time of a scope to a stage.
+class StageTimer {
+ public:
+  explicit StageTimer(double& seconds) : seconds_(seconds), start_(Clock::now()) {}
+  ~StageTimer() { seconds_ += std::chrono::duration<double>(Clock::now() - start_).count(); }
+  StageTimer(const StageTimer&) = delete;
+  StageTimer& operator=(const StageTimer&) = delete;
+
+ private:
+  using Clock = std::chrono::steady_clock;
+  double& seconds_;
+  Clock::time_point start_;
+};
+
+MapHierarchy makeRoot(const LabelProfiles& profiles) {
+  const auto found = profiles.find(labels::background);
+  if (found == profiles.end()) throw ConfigError("label 'background' has no section [label.background]");
+  MapHierarchy hierarchy(labels::background, NodeMap(found->second.resolution, found->second.occupancy));
+  hierarchy.root().existence_log_odds = logOdds(found->second.existence.clamp_max);
+  return hierarchy;
+}
+
+double smallerRange(double a, double b) {
+  if (a < 0.0) return b;
+  return b < 0.0 ? a : std::min(a, b);
+}
+
+}  // namespace
+
+struct HierarchyMapper::LabelledPart {
+  Structure structure;
+  PointIndices points;
+  PointCloud world_points;
+  Label label;
+  Obb box;
+};
+
+struct HierarchyMapper::NodeEvidence {
+  std::vector<NodeId> nodes;
+  std::vector<Evidence> evidence;
+
+  [[nodiscard]] bool contradicts(NodeId id) const {
+    const auto found = std::lower_bound(nodes.begin(), nodes.end(), id);
+    return found != nodes.end() && *found == id &&
+           evidence[static_cast<std::size_t>(found - nodes.begin())].contradicts();
+  }
+};
+
+HierarchyMapper::HierarchyMapper(MappingConfig config, LabelProfiles profiles, MappingStrategies strategies)
+    : HierarchyMapper(config, profiles, std::move(strategies), makeRoot(profiles)) {}
+
+HierarchyMapper::HierarchyMapper(MappingConfig config, LabelProfiles profiles, MappingStrategies strategies,
+                                 MapHierarchy hierarchy)
+    : config_(config),
+      profiles_(std::move(profiles)),
+      strategies_(std::move(strategies)),
+      hierarchy_(std::move(hierarchy)) {}
+
+UpdateReport HierarchyMapper::integrate(const Measurement& z) {
+  UpdateReport report;
+  report.scan = z.scan;
+  report.stamp = z.stamp;
+  report.points = z.world_points.size();
+
+  // III-C, step 1: segment, and label.
+  std::vector<LabelledPart> parts;
+  {
+    const StageTimer timer(report.seconds.segment);
+    parts = segmentAndLabel(z);
+  }
+
+  // What the whole measurement says of the nodes, before anything of it is integrated (III-D).
+  NodeEvidence evidence;
+  {
+    const StageTimer timer(report.seconds.existence);
+    evidence = gatherEvidence(z);
+  }
+
+  // The background first, then planes, then clusters: so that parents exist when their children come.
+  for (const Structure structure : {Structure::remainder, Structure::plane, Structure::cluster}) {
+    std::vector<LabelledPart*> group;
+    for (auto& part : parts) {
+      if (part.structure == structure) group.push_back(&part);
+    }
+    // Step 2: associate each segment to a node, or create one.
+    std::vector<NodeId> nodes;
+    {
+      const StageTimer timer(report.seconds.associate);
+      nodes = associate(z, group, evidence, report);
+    }
+    // Step 3: update the nodes' maps.
+    const StageTimer timer(report.seconds.update);
+    updateMaps(z, group, nodes, report);
+  }
+
+  // Eq. 8: nodes whose probability of existence falls below 0.5 are removed.
+  const StageTimer timer(report.seconds.existence);
+  applyExistence(z, evidence, report);
+  return report;
+}
+
+std::vector<HierarchyMapper::LabelledPart> HierarchyMapper::segmentAndLabel(const Measurement& z) const {
+  std::vector<LabelledPart> parts;
+  for (Segment& segment : strategies_.segmentation->segment(z)) {
+    if (segment.points.empty()) continue;
+    LabelledPart part{segment.structure, {}, {}, strategies_.labeling->label(z, segment), {}};
+    static_cast<void>(profile(part.label));  // a label without a profile is an error at once
+    part.points = std::move(segment.points);
+    part.world_points.reserve(part.points.size());
+    for (const auto i : part.points) part.world_points.push_back(z.world_points[i]);
+    part.box = pcaBox(part.world_points);
+    parts.push_back(std::move(part));
+  }
+  return parts;
+}
+
+HierarchyMapper::NodeEvidence HierarchyMapper::gatherEvidence(const Measurement& z) const {
+  NodeEvidence gathered;
+  if (!strategies_.existence) return gathered;
+  std::vector<ExistenceParameters> parameters;
+  for (const NodeId id : hierarchy_.ids()) {
+    const LabelProfile& p = profile(hierarchy_.node(id).label());
+    if (id == kRootId || !p.existence_enabled) continue;
+    gathered.nodes.push_back(id);
+    parameters.push_back(p.existence);
+  }
+  gathered.evidence = strategies_.existence->evidence(hierarchy_, z, gathered.nodes, parameters);
+  return gathered;
+}
+
+std::vector<NodeId> HierarchyMapper::associate(const Measurement& z, const std::vector<LabelledPart*>& parts,
+                                               const NodeEvidence& evidence, UpdateReport& report) {
+  // A node that this scan contradicts must not swallow what has moved into its box.
+  const Admissible admissible = [&evidence](NodeId id) { return !evidence.contradicts(id); };
+  std::vector<std::optional<NodeId>> found;
+  for (const LabelledPart* part : parts) {
+    found.push_back(strategies_.association->associate(
+        hierarchy_, LabelledSegment{part->label, &part->world_points, part->box}, admissible));
+    // There is one background, whether or not any of it has been seen.
+    if (!found.back() && part->label == hierarchy_.root().label()) found.back() = kRootId;
+  }
+  std::vector<NodeId> nodes;
+  for (std::size_t i = 0; i < parts.size(); ++i) {
+    nodes.push_back(found[i] ? *found[i] : createNode(z, *parts[i], report));
+  }
+  return nodes;
+}
+
+NodeId HierarchyMapper::createNode(const Measurement& z, const LabelledPart& part, UpdateReport& report) {
+  const LabelProfile& p = profile(part.label);
+  const NodeId parent = strategies_.relations.deepestAncestor(hierarchy_, {part.label, part.box, nullptr});
+  // IV-A: the frame comes from the first measurement that is integrated into the node.
+  Pose world_T_node = pcaFrame(part.world_points);
+  if (p.frame == FrameChoice::world) world_T_node.setYawPitchRoll(0.0, 0.0, 0.0);
+  const NodeId id = hierarchy_.add(part.label, NodeMap(p.resolution, p.occupancy), world_T_node, parent);
+  MapNode& node = hierarchy_.node(id);
+  node.first_scan = node.last_scan = node.version = z.scan;
+  node.existence_log_odds = ExistenceFilter(p.existence).initialLogOdds();
+  report.events.push_back(
+      {NodeEventKind::created, id, part.label, node.existence(),
+       std::to_string(part.points.size()) + " points, parent " + std::to_string(parent.value)});
+  return id;
+}
+
+void HierarchyMapper::updateMaps(const Measurement& z, const std::vector<LabelledPart*>& parts,
+                                 const std::vector<NodeId>& nodes, UpdateReport& report) {
+  // All segments of a node together, so that each voxel is updated once a scan.
+  std::map<NodeId, NodeUpdate> by_node;
+  for (std::size_t i = 0; i < parts.size(); ++i) {
+    PointIndices& points = by_node[nodes[i]].points;
+    points.insert(points.end(), parts[i]->points.begin(), parts[i]->points.end());
+  }
+  std::vector<NodeUpdate> updates;
+  for (auto& [id, update] : by_node) {
+    update.node = &hierarchy_.node(id);
+    update.world_T_node = hierarchy_.world_T_node(id);
+    update.profile = &profile(update.node->label());
+    update.max_range = smallerRange(config_.max_range, update.profile->max_range);
+    update.bounded = config_.bounded;
+    std::sort(update.points.begin(), update.points.end());
+    updates.push_back(std::move(update));
+  }
+  std::vector<ScanUpdateReport> results(updates.size());
+  tbb::parallel_for(std::size_t{0}, updates.size(),
+                    [&](std::size_t i) { results[i] = updateNodeMap(updates[i], z, *strategies_.update); });
+
+  std::vector<NodeId> created;
+  for (std::size_t i = 0; i < updates.size(); ++i) {
+    const MapNode& node = *updates[i].node;
+    report.beyond_key_range += results[i].beyond_key_range;
+    if (node.first_scan == z.scan && node.id() != kRootId) {
+      created.push_back(node.id());
+    } else {
+      report.events.push_back({NodeEventKind::updated, node.id(), node.label(), node.existence(),
+                               std::to_string(updates[i].points.size()) + " points"});
+    }
+  }
+  adoptRelated(created);
+}
+
+void HierarchyMapper::adoptRelated(const std::vector<NodeId>& created) {
+  // An object that was seen before its table hangs under the background until the table appears.
+  for (const NodeId above : created) {
+    for (const NodeId id : hierarchy_.ids()) {
+      if (id == kRootId || id == above) continue;
+      const NodeView below = hierarchy_.view(id);
+      if (!strategies_.relations.holds(hierarchy_.view(above), below)) continue;
+      const NodeId parent = strategies_.relations.deepestAncestor(hierarchy_, below, &id);
+      if (parent != hierarchy_.node(id).parent()) hierarchy_.reparent(id, parent);
+    }
+  }
+}
+
+void HierarchyMapper::applyExistence(const Measurement& z, const NodeEvidence& evidence,
+                                     UpdateReport& report) {
+  for (std::size_t i = 0; i < evidence.nodes.size(); ++i) {
+    const Evidence& e = evidence.evidence[i];
+    if (e.present + e.absent + e.occluded == 0) continue;  // out of view
+    MapNode& node = hierarchy_.node(evidence.nodes[i]);
+    if (e.informative) {
+      const ExistenceFilter filter(profile(node.label()).existence);
+      node.existence_log_odds = filter.update(node.existence_log_odds, e.p_measurement);
+    }
+    report.existence.push_back({node.id(), e, node.existence()});
+  }
+  for (const NodeId id : evidence.nodes) {
+    if (!ExistenceFilter::isGone(hierarchy_.node(id).existence_log_odds)) continue;
+    const Pose world_T_node = hierarchy_.world_T_node(id);
+    removed_.push_back({hierarchy_.remove(id), world_T_node, z.scan});
+    const MapNode& node = removed_.back().node;
+    report.events.push_back(
+        {NodeEventKind::removed, id, node.label(), node.existence(), "existence below 0.5"});
+  }
+}
+
+UpdateReport HierarchyMapper::integrate(const ObjectMotion& motion, std::uint64_t scan) {
+  UpdateReport report;
+  report.scan = scan;
+  report.stamp = motion.stamp;
+  if (!hierarchy_.contains(motion.node) || motion.node == kRootId) {
+    report.warnings.push_back("motion of node " + std::to_string(motion.node.value) +
+                              " ignored: there is no such movable node");
+    return report;
+  }
+  hierarchy_.move(motion.node, motion.motion);  // t_i <- t_i o t
+  const MapNode& node = hierarchy_.node(motion.node);
+  report.events.push_back(
+      {NodeEventKind::moved, node.id(), node.label(), node.existence(), motion.motion.asString()});
+  return report;
+}
+
+const LabelProfile& HierarchyMapper::profile(const Label& label) const {
+  const auto found = profiles_.find(label);
+  if (found == profiles_.end()) {
+    throw ConfigError("label '" + label.name + "' has no section [label." + label.name + "]");
+  }
+  return found->second;
+}
+
+}  // namespace hoctomap

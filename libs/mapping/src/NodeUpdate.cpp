@@ -1,0 +1,69 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "NodeUpdate.h"
+
+#include <cstddef>
+
+namespace hoctomap {
+
+namespace {
+
+/// The points of `z` in the node's frame: its own, and those of the rest of the scan.
+struct NodePoints {
+  PointCloud own;
+  PointCloud others;
+};
+
+NodePoints toNodeFrame(const NodeUpdate& update, const Measurement& z) {  // Eq. (12)
+  const Eigen::Isometry3d node_T_world = toIsometry(update.world_T_node).inverse();
+  const auto in_node = [&](std::size_t i) -> Eigen::Vector3f {
+    return (node_T_world * z.world_points[i].cast<double>()).cast<float>();
+  };
+  NodePoints points;
+  points.own.reserve(update.points.size());
+  for (const auto i : update.points) points.own.push_back(in_node(i));
+  if (update.profile->carve == Carve::scan && update.bounded) {
+    points.others.reserve(z.world_points.size() - update.points.size());
+    std::size_t next_own = 0;
+    for (std::size_t i = 0; i < z.world_points.size(); ++i) {
+      if (next_own < update.points.size() && update.points[next_own] == i) {
+        ++next_own;
+      } else {
+        points.others.push_back(in_node(i));
+      }
+    }
+  }
+  return points;
+}
+
+/// The box of the node grown by the endpoints that this scan will mark, padded by one voxel.
+Eigen::AlignedBox3d grownBox(const NodeMap& map, const PointCloud& own, const Eigen::Vector3f& origin,
+                             double max_range) {
+  Eigen::AlignedBox3d box = map.occupiedBox();
+  for (const auto& p : own) {
+    if (max_range < 0.0 || (p - origin).norm() <= max_range) box.extend(p.cast<double>());
+  }
+  const Eigen::Vector3d voxel = Eigen::Vector3d::Constant(map.resolution());
+  if (!box.isEmpty()) box = Eigen::AlignedBox3d(box.min() - voxel, box.max() + voxel);
+  return box;
+}
+
+}  // namespace
+
+ScanUpdateReport updateNodeMap(const NodeUpdate& update, const Measurement& z, const ScanUpdate& engine) {
+  const NodePoints points = toNodeFrame(update, z);
+  Beams beams;
+  beams.origin = (toIsometry(update.world_T_node).inverse() * z.origin()).cast<float>();
+  beams.hits = points.own;
+  beams.passing = points.others;
+  beams.max_range = update.max_range;
+  if (update.bounded) {
+    beams.bounds = grownBox(update.node->map(), points.own, beams.origin, update.max_range);
+    if (beams.bounds->isEmpty()) return {};  // nothing mapped yet, nothing to map
+  }
+  const ScanUpdateReport report = update.node->map().update(engine, beams);
+  update.node->last_scan = z.scan;
+  update.node->version = z.scan;
+  return report;
+}
+
+}  // namespace hoctomap

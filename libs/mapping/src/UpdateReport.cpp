@@ -1,0 +1,22 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "hoctomap/mapping/UpdateReport.h"
+
+#include <stdexcept>
+
+namespace hoctomap {
+
+std::string toString(NodeEventKind kind) {
+  switch (kind) {
+    case NodeEventKind::created:
+      return "created";
+    case NodeEventKind::updated:
+      return "updated";
+    case NodeEventKind::removed:
+      return "removed";
+    case NodeEventKind::moved:
+      return "moved";
+  }
+  throw std::invalid_argument("no such node event");
+}
+
+}  // namespace hoctomap

@@ -1,0 +1,59 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <octomap/OcTree.h>
+
+#include <Eigen/Geometry>
+#include <cstdint>
+#include <memory>
+#include <vector>
+
+#include "hoctomap/octree/OccupancyModel.h"
+#include "hoctomap/octree/ScanUpdate.h"
+
+namespace hoctomap {
+
+/// Voxels of a map, counted at its resolution: a pruned leaf counts as all the voxels it covers.
+struct VoxelCounts {
+  std::uint64_t occupied = 0;
+  std::uint64_t free = 0;
+};
+
+/// The map m_i of a node (Eq. 2): an OctoMap octree in the node's own frame.
+class NodeMap {
+ public:
+  /// An empty map. @param resolution voxel edge in metres.
+  /// @throws std::invalid_argument if the resolution is not finite and positive.
+  NodeMap(double resolution, const OccupancyModel& model);
+
+  /// A map around an existing tree (of a file); sets `model` in it.
+  /// @throws std::invalid_argument if the tree is null.
+  NodeMap(std::unique_ptr<octomap::OcTree> tree, const OccupancyModel& model);
+
+  [[nodiscard]] const octomap::OcTree& tree() const { return *tree_; }
+  [[nodiscard]] double resolution() const { return tree_->getResolution(); }
+  [[nodiscard]] const OccupancyModel& model() const { return model_; }
+
+  /// Integrates one scan.
+  ScanUpdateReport update(const ScanUpdate& engine, const Beams& beams);
+
+  /// Centres of the occupied voxels in the node's frame, at the map's resolution, in octree order.
+  [[nodiscard]] const PointCloud& occupiedVoxels() const;
+
+  /// Box of the occupied voxels in the node's frame (whole voxels, no padding); empty if there are none.
+  [[nodiscard]] const Eigen::AlignedBox3d& occupiedBox() const;
+
+  [[nodiscard]] VoxelCounts countVoxels() const;
+
+ private:
+  void collectOccupied() const;
+
+  std::unique_ptr<octomap::OcTree> tree_;
+  OccupancyModel model_;
+  // Derived from the tree on first use after a change; one thread works on a node at a time.
+  mutable bool occupied_valid_ = false;
+  mutable PointCloud occupied_voxels_;
+  mutable Eigen::AlignedBox3d occupied_box_;
+};
+
+}  // namespace hoctomap
