@@ -1,0 +1,96 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "MapRun.h"
+
+#include <chrono>
+
+#include "StopSignal.h"
+#include "hoctomap/geometry/Errors.h"
+
+namespace hoctomap {
+
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+double secondsSince(Clock::time_point start) {
+  return std::chrono::duration<double>(Clock::now() - start).count();
+}
+
+}  // namespace
+
+MapRun::MapRun(const Settings& settings, HierarchyMapper& mapper, MapDirectory& directory, RunLog& log,
+               std::uint64_t first_scan, std::uint64_t snapshot_every)
+    : settings_(settings),
+      mapper_(mapper),
+      directory_(directory),
+      log_(log),
+      snapshot_every_(snapshot_every),
+      next_scan_(first_scan) {}
+
+void MapRun::run(PipeSource& source, Progress& progress) {
+  input_ = source.header().logs_sha256;
+  while (StopSignal::requested() == 0) {
+    const auto start = Clock::now();
+    const auto item = source.next();
+    if (!item) break;
+    const double read_seconds = secondsSince(start);
+    summary_.addSeconds("read", read_seconds);
+    if (const auto* z = std::get_if<Measurement>(&*item)) {
+      integrate(*z, read_seconds);
+    } else if (const auto* motion = std::get_if<ObjectMotion>(&*item)) {
+      integrate(*motion);
+    } else {
+      const auto& skipped = std::get<SkippedScan>(*item);
+      summary_.addSkipped(skipped);
+      log_.warn("scans skipped: " + skipped.reason + " (first: scan " + std::to_string(skipped.scan) + ")");
+      finishScan(skipped.scan);
+    }
+    progress.show(summary_.used() + summary_.skipped(), mapper_.hierarchy().size());
+  }
+  commit(false);
+}
+
+void MapRun::integrate(const Measurement& z, double read_seconds) {
+  const UpdateReport report = mapper_.integrate(z);
+  summary_.addUsed(z);
+  summary_.addReport(report);
+  directory_.append(report);
+  for (const auto& event : report.events) {
+    if (event.kind == NodeEventKind::updated) continue;
+    log_.debug("scan " + std::to_string(z.scan) + ": " + event.label.name + " " +
+               std::to_string(event.node.value) + " " + toString(event.kind) + " (" + event.detail + ")");
+  }
+  if (mapper_.hierarchy().size() > static_cast<std::size_t>(settings_.limits.max_nodes)) {
+    throw LimitError("scan " + std::to_string(z.scan) + ": the map has more than " +
+                     std::to_string(settings_.limits.max_nodes) + " nodes ([limits] max_nodes)");
+  }
+  TimingRow row{z.scan, z.world_points.size(), read_seconds, report.seconds, 0.0};
+  const auto start = Clock::now();
+  finishScan(z.scan);
+  row.write_s = secondsSince(start);
+  directory_.append(row);
+}
+
+void MapRun::integrate(const ObjectMotion& motion) {
+  const UpdateReport report = mapper_.integrate(motion, next_scan_);
+  for (const auto& warning : report.warnings) log_.warn(warning);
+  directory_.append(report);
+}
+
+void MapRun::finishScan(std::uint64_t scan) {
+  next_scan_ = scan + 1;
+  ++uncommitted_;
+  ++since_snapshot_;
+  const bool snapshot = snapshot_every_ > 0 && since_snapshot_ >= snapshot_every_;
+  if (snapshot || uncommitted_ >= static_cast<std::uint64_t>(settings_.checkpoint_scans)) commit(snapshot);
+}
+
+void MapRun::commit(bool keep) {
+  const auto start = Clock::now();
+  directory_.commit({mapper_.hierarchy(), mapper_.removed(), next_scan_, input_, keep});
+  uncommitted_ = 0;
+  if (keep) since_snapshot_ = 0;
+  summary_.addSeconds("write", secondsSince(start));
+}
+
+}  // namespace hoctomap

@@ -1,0 +1,47 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <cstdint>
+
+#include "Progress.h"
+#include "RunLog.h"
+#include "RunSummary.h"
+#include "hoctomap/config/Settings.h"
+#include "hoctomap/io/MapDirectory.h"
+#include "hoctomap/io/PipeSource.h"
+#include "hoctomap/mapping/HierarchyMapper.h"
+
+namespace hoctomap {
+
+/// The loop of `build`: scans from the source into the mapper, the map into its directory.
+class MapRun {
+ public:
+  /// @param first_scan number of the first scan that is not in the map yet
+  MapRun(const Settings& settings, HierarchyMapper& mapper, MapDirectory& directory, RunLog& log,
+         std::uint64_t first_scan, std::uint64_t snapshot_every);
+
+  /// Runs to the end of the source, or until a signal asks to stop. Commits every `checkpoint_scans` scans
+  /// and at the end.
+  void run(PipeSource& source, Progress& progress);
+
+  [[nodiscard]] const RunSummary& summary() const { return summary_; }
+
+ private:
+  void integrate(const Measurement& z, double read_seconds);
+  void integrate(const ObjectMotion& motion);
+  void finishScan(std::uint64_t scan);
+  void commit(bool keep);
+
+  const Settings& settings_;
+  HierarchyMapper& mapper_;
+  MapDirectory& directory_;
+  RunLog& log_;
+  std::uint64_t snapshot_every_;
+  std::string input_;
+  std::uint64_t next_scan_;
+  std::uint64_t uncommitted_ = 0;
+  std::uint64_t since_snapshot_ = 0;
+  RunSummary summary_;
+};
+
+}  // namespace hoctomap

@@ -1,0 +1,38 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <cstdint>
+#include <map>
+#include <string>
+
+#include "hoctomap/mapping/MeasurementSource.h"
+#include "hoctomap/mapping/UpdateReport.h"
+
+namespace hoctomap {
+
+/// What a run took in, for its summary and its exit code.
+class RunSummary {
+ public:
+  void addSkipped(const SkippedScan& skipped) { ++skipped_[skipped.reason]; }
+  void addUsed(const Measurement& z);
+  void addReport(const UpdateReport& report);
+  void addSeconds(const std::string& stage, double seconds) { seconds_[stage] += seconds; }
+
+  [[nodiscard]] std::uint64_t used() const { return used_; }
+  [[nodiscard]] std::uint64_t skipped() const;
+  /// Whether more than `share` of the scans were skipped.
+  [[nodiscard]] bool skippedMoreThan(double share) const;
+
+  /// Lines about scans, points and time.
+  [[nodiscard]] std::string text() const;
+
+ private:
+  std::uint64_t used_ = 0;
+  std::uint64_t empty_ = 0;
+  std::uint64_t dropped_points_ = 0;
+  std::uint64_t beyond_key_range_ = 0;
+  std::map<std::string, std::uint64_t> skipped_;
+  std::map<std::string, double> seconds_;
+};
+
+}  // namespace hoctomap

@@ -1,0 +1,112 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include <tbb/global_control.h>
+
+#include <iostream>
+#include <memory>
+
+#include "Command.h"
+#include "LogOptions.h"
+#include "MapRun.h"
+#include "MappingSetup.h"
+#include "StopSignal.h"
+#include "hoctomap/geometry/Errors.h"
+#include "hoctomap/io/ChildProcess.h"
+#include "hoctomap/io/MapDescription.h"
+#include "hoctomap/io/MapReader.h"
+
+namespace hoctomap {
+
+namespace {
+
+struct BuildOptions {
+  LogOptions log;
+  bool resume = false;
+  bool overwrite = false;
+  std::uint64_t snapshot_every = 0;
+  bool monolithic = false;
+};
+
+void writeScene(const std::filesystem::path& directory, const std::filesystem::path& file) {
+  if (runHelper({"scene", directory.string(), file.string()}) != 0) {
+    throw FileError(file.string() + ": the scene could not be written");
+  }
+}
+
+/// What has been mapped already, if a run is continued.
+std::optional<Manifest> committedMap(const BuildOptions& options) {
+  const std::filesystem::path directory(options.log.output);
+  if (!options.resume || !std::filesystem::exists(directory / "hierarchy.yaml")) return std::nullopt;
+  return readManifest(directory);
+}
+
+HierarchyMapper makeMapper(const Settings& settings, const std::optional<Manifest>& committed,
+                           const std::filesystem::path& directory) {
+  if (!committed) return {settings.mappingConfig(), settings.labels, makeStrategies(settings)};
+  return {settings.mappingConfig(), settings.labels, makeStrategies(settings), readMap(directory).hierarchy};
+}
+
+int build(const BuildOptions& options) {
+  Settings settings = options.log.settings();
+  settings.monolithic |= options.monolithic;
+  RunLog log(options.log.verbose, options.log.quiet);
+  const tbb::global_control threads(tbb::global_control::max_allowed_parallelism, options.log.threadCount());
+  const StopSignal stop_signal;
+
+  // The logs are gone through once before anything is written.
+  const auto committed = committedMap(options);
+  LogReadOptions read = options.log.readOptions(settings);
+  if (committed) read.resume_at = committed->scans;
+  PipeSource source(read, RangeLimits{settings.sensor.min_range},
+                    [&log](const std::string& text) { log.warn(text); });
+  if (committed && committed->input != source.header().logs_sha256) {
+    throw InputError("the logs are not those that " + options.log.output + " was built from");
+  }
+
+  const MapOpenMode mode = options.resume      ? MapOpenMode::resume
+                           : options.overwrite ? MapOpenMode::overwrite
+                                               : MapOpenMode::create;
+  MapDirectory directory(options.log.output, {mode, toIni(settings), "hoctomap " HOCTOMAP_VERSION, {}});
+  log.writeTo(directory.logFile());
+  log.info("poses: " + source.header().pose_source);
+  if (committed) log.info("continuing at scan " + std::to_string(committed->scans));
+
+  HierarchyMapper mapper = makeMapper(settings, committed, directory.path());
+  MapRun run(settings, mapper, directory, log, read.resume_at, options.snapshot_every);
+  {
+    Progress progress(log, source.totalScans(), options.log.quiet);
+    run.run(source, progress);
+  }
+  directory.writeScene(writeScene);
+
+  std::cout << describeMap(readManifest(directory.path())) << "\n"
+            << run.summary().text() << "map        " << options.log.output << std::endl;
+  if (const int signal = StopSignal::requested()) {
+    log.warn("stopped by signal " + std::to_string(signal) +
+             "; what was mapped is committed (--continue goes on)");
+    return 128 + signal;
+  }
+  if (run.summary().skippedMoreThan(settings.limits.max_skipped_share)) {
+    log.warn("too many scans were skipped ([limits] max_skipped_share)");
+    return 3;
+  }
+  return 0;
+}
+
+}  // namespace
+
+void addBuildCommand(CLI::App& app, Action& action) {
+  auto options = std::make_shared<BuildOptions>();
+  CLI::App* command = addCommand(app, "build", "Build a hierarchy of octree maps from logs",
+                                 {"hoctomap build -i log.rawlog -o map",
+                                  "hoctomap build -c configs/paper.ini -i a.rawlog -i b.rawlog -o map",
+                                  "hoctomap build -i log.rawlog -o map --set label.object.resolution=0.004"});
+  options->log.addTo(*command);
+  auto* resume = command->add_flag("--continue", options->resume, "go on with the map in DIR");
+  command->add_flag("--overwrite", options->overwrite, "replace the map in DIR")->excludes(resume);
+  command->add_option("--snapshot-every", options->snapshot_every, "keep the state after every N scans")
+      ->type_name("N");
+  command->add_flag("--monolithic", options->monolithic, "one single map, as stock OctoMap would build it");
+  command->callback([options, &action] { action = [options] { return build(*options); }; });
+}
+
+}  // namespace hoctomap

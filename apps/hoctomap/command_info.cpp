@@ -1,0 +1,46 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include <iostream>
+#include <memory>
+
+#include "Command.h"
+#include "hoctomap/geometry/Errors.h"
+#include "hoctomap/io/ChildProcess.h"
+#include "hoctomap/io/MapDescription.h"
+
+namespace hoctomap {
+
+namespace {
+
+struct InfoOptions {
+  std::string path;
+  bool json = false;
+  std::optional<std::uint64_t> at_scan;
+};
+
+int info(const InfoOptions& options) {
+  if (std::filesystem::is_directory(options.path)) {
+    const Manifest manifest = readManifest(options.path, options.at_scan);
+    std::cout << (options.json ? mapJson(manifest) : describeMap(manifest)) << std::flush;
+    return 0;
+  }
+  if (options.at_scan) throw ConfigError("--at-scan is for maps; " + options.path + " is no map directory");
+  std::vector<std::string> arguments{"info", options.path};
+  if (options.json) arguments.emplace_back("--json");
+  return runHelper(arguments);
+}
+
+}  // namespace
+
+void addInfoCommand(CLI::App& app, Action& action) {
+  auto options = std::make_shared<InfoOptions>();
+  CLI::App* command =
+      addCommand(app, "info", "Say what a log holds and whether it can be built, or show the tree of a map",
+                 {"hoctomap info log.rawlog", "hoctomap info map --json"});
+  command->add_option("path", options->path, "a log or a map directory")->type_name("LOG|DIR")->required();
+  command->add_flag("--json", options->json, "for programs");
+  command->add_option("--at-scan", options->at_scan, "the map as it was after scan K (of a kept snapshot)")
+      ->type_name("K");
+  command->callback([options, &action] { action = [options] { return info(*options); }; });
+}
+
+}  // namespace hoctomap

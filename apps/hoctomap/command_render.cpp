@@ -1,0 +1,39 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include <memory>
+
+#include "Command.h"
+#include "hoctomap/io/ChildProcess.h"
+
+namespace hoctomap {
+
+namespace {
+
+struct RenderOptions {
+  std::string map;
+  std::string output;
+  std::string size;
+  std::string view;
+};
+
+int render(const RenderOptions& options) {
+  std::vector<std::string> arguments{"render", options.map, "-o", options.output};
+  if (!options.size.empty()) arguments.insert(arguments.end(), {"--size", options.size});
+  if (!options.view.empty()) arguments.insert(arguments.end(), {"--view", options.view});
+  return runHelper(arguments);
+}
+
+}  // namespace
+
+void addRenderCommand(CLI::App& app, Action& action) {
+  auto options = std::make_shared<RenderOptions>();
+  CLI::App* command =
+      addCommand(app, "render", "Make a picture of a map, without a display",
+                 {"hoctomap render map -o map.png", "hoctomap render map -o top.png --view top"});
+  command->add_option("map", options->map, "map directory")->type_name("DIR")->required();
+  command->add_option("-o,--output", options->output, "the picture")->type_name("PNG")->required();
+  command->add_option("--size", options->size, "in pixels")->type_name("WxH");
+  command->add_option("--view", options->view, "front or top")->type_name("VIEW");
+  command->callback([options, &action] { action = [options] { return render(*options); }; });
+}
+
+}  // namespace hoctomap

@@ -1,0 +1,39 @@
+#!/usr/bin/env bash
+# SPDX-License-Identifier: BSD-3-Clause
+# Installs the Debian 12 packages that are missing. Uses sudo only when not root.
+set -euo pipefail
+
+packages=(
+  # tools
+  g++ cmake ninja-build pkg-config
+  # geometry, poses, logs, scenes
+  libeigen3-dev libmrpt-poses-dev libmrpt-system-dev libmrpt-containers-dev
+  libmrpt-obs-dev libmrpt-maps-dev libmrpt-opengl-dev
+  # maps and search
+  liboctomap-dev libnanoflann-dev libtbb-dev
+  # command line, configuration, files
+  libcli11-dev libsimpleini-dev libyaml-cpp-dev nlohmann-json3-dev libssl-dev libpng-dev zlib1g-dev
+  # the simulated sensor
+  libembree-dev libassimp-dev
+  # pictures without a display
+  libegl1 libgl1-mesa-dri
+  # tests; octomap-tools, mrpt-apps and python3-yaml open our results
+  libgtest-dev octomap-tools mrpt-apps xvfb python3-yaml python3-numpy python3-pil
+)
+
+missing=()
+for package in "${packages[@]}"; do
+  dpkg-query --show --showformat='${db:Status-Status}' "$package" 2>/dev/null | grep -qx installed ||
+    missing+=("$package")
+done
+if [ "${#missing[@]}" -eq 0 ]; then
+  echo "all packages are installed"
+  exit 0
+fi
+
+as_root=()
+[ "$(id -u)" -eq 0 ] || as_root=(sudo)
+echo "installing: ${missing[*]}"
+export DEBIAN_FRONTEND=noninteractive
+"${as_root[@]}" apt-get update -q
+"${as_root[@]}" apt-get install -y -q --no-install-recommends "${missing[@]}"

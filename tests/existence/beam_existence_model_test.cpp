@@ -1,0 +1,135 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "hoctomap/existence/BeamExistenceModel.h"
+
+#include <gtest/gtest.h>
+
+#include "support/RandomScenes.h"
+
+namespace hoctomap {
+namespace {
+
+/// A wall 2 m ahead and a square plate of 12 cm at a chosen distance, as a depth image; sideways offset in y.
+struct Plate {
+  double distance = 1.2;
+  double y = 0.0;
+  bool there = true;
+};
+
+Measurement look(const std::vector<Plate>& plates, double pose_error_y = 0.0) {
+  DepthImage image{{160, 120, 145.0, 145.0, 80.0, 60.0}, std::vector<float>(160 * 120, 2.0F)};
+  for (const Plate& plate : plates) {
+    if (!plate.there) continue;
+    for (int v = 0; v < 120; ++v) {
+      for (int u = 0; u < 160; ++u) {
+        const Eigen::Vector3d p = image.camera.point(u, v, plate.distance);
+        float& depth = image.depth[static_cast<std::size_t>(v * 160 + u)];
+        if (std::abs(p.y() - plate.y) < 0.06 && std::abs(p.z()) < 0.06 && plate.distance < depth) {
+          depth = static_cast<float>(plate.distance);
+        }
+      }
+    }
+  }
+  return unproject(std::move(image), Pose(0.0, pose_error_y, 0.0, 0, 0, 0), {});
+}
+
+/// A hierarchy whose only node but the root holds the plate at 1.2 m, seen from the origin.
+struct MappedPlate {
+  MapHierarchy h{labels::background, NodeMap(0.05, {})};
+  NodeId plate = h.add(labels::object, NodeMap(0.005, {}), Pose(1.2, 0, 0, 0, 0, 0), kRootId);
+
+  MappedPlate() {
+    const Measurement z = look({{1.2}});
+    PointCloud wall;
+    PointCloud on_plate;
+    for (const auto& p : z.world_points) {
+      if (p.x() < 1.5F) {
+        on_plate.emplace_back(p.x() - 1.2F, p.y(), p.z());
+      } else {
+        wall.push_back(p);
+      }
+    }
+    update(kRootId, wall, Eigen::Vector3f::Zero());
+    update(plate, on_plate, Eigen::Vector3f(-1.2F, 0, 0));
+  }
+
+  void update(NodeId id, const PointCloud& hits, const Eigen::Vector3f& origin) {
+    Beams beams;
+    beams.hits = hits;
+    beams.origin = origin;
+    h.node(id).map().update(*makeReferenceScanUpdate(), beams);
+  }
+
+  [[nodiscard]] Evidence see(const Measurement& z) const {
+    return BeamExistenceModel({}).evidence(h, z, {plate}, {ExistenceParameters{}}).front();
+  }
+};
+
+TEST(BeamExistenceModel, ANodeThatIsSeenIsPresent) {
+  const Evidence e = MappedPlate().see(look({{1.2}}));
+  EXPECT_TRUE(e.informative);
+  EXPECT_GT(e.present, 20 * (e.absent + e.occluded));
+  EXPECT_GT(e.p_measurement, 0.85);
+  EXPECT_FALSE(e.contradicts());
+}
+
+TEST(BeamExistenceModel, ANodeThatBeamsPassThroughIsAbsent) {
+  const Evidence e = MappedPlate().see(look({}));
+  EXPECT_TRUE(e.informative);
+  EXPECT_GT(e.absent, 20 * (e.present + e.occluded));
+  EXPECT_LT(e.p_measurement, 0.15);
+  EXPECT_TRUE(e.contradicts());
+}
+
+TEST(BeamExistenceModel, AHiddenNodeNeverChanges) {
+  const MappedPlate scene;
+  const ExistenceParameters parameters;
+  // Something 24 cm wide stands before it, whether or not the plate is still there.
+  for (const bool there : {true, false}) {
+    const Evidence e = scene.see(look({{1.2, 0.0, there}, {0.5, 0.0}, {0.5, 0.03}, {0.5, -0.03}}));
+    EXPECT_FALSE(e.informative);
+    EXPECT_EQ(e.p_measurement, parameters.prior);
+    EXPECT_GT(e.occluded, 10 * (e.present + e.absent));
+  }
+}
+
+TEST(BeamExistenceModel, ANodeOutOfViewNeverChanges) {
+  const MappedPlate scene;
+  Measurement z = look({});
+  z.world_T_sensor = Pose(0, 0, 0, M_PI, 0, 0);  // looking the other way
+  const Evidence e = scene.see(z);
+  EXPECT_EQ(e.present + e.absent + e.occluded, 0U);
+  EXPECT_EQ(e.p_measurement, 0.5);
+}
+
+TEST(BeamExistenceModel, NoReturnIsNeverFreeSpace) {
+  Measurement z = look({});
+  for (float& depth : z.image->depth) depth = 0.0F;
+  const Evidence e = MappedPlate().see(z);
+  EXPECT_FALSE(e.informative);
+  EXPECT_EQ(e.absent, 0U);
+}
+
+TEST(BeamExistenceModel, APoseErrorIsSearchedOut) {
+  const MappedPlate scene;
+  for (const double error : {-0.015, 0.015}) {
+    const Evidence e = scene.see(look({{1.2, -error}}, error));
+    const Evidence shifted = scene.see(look({{1.2}}, error));
+    EXPECT_GT(e.p_measurement, 0.85) << "seen where it is";
+    EXPECT_GT(shifted.p_measurement, 0.85) << "seen " << error << " m beside it";
+  }
+}
+
+TEST(BeamExistenceModel, AnUnorganisedCloudSaysTheSame) {
+  const MappedPlate scene;
+  for (const bool there : {true, false}) {
+    Measurement z = look({{1.2, 0.0, there}});
+    z.image.reset();
+    z.pixel_of_point.clear();
+    const Evidence e = scene.see(z);
+    EXPECT_TRUE(e.informative);
+    EXPECT_EQ(e.contradicts(), !there);
+  }
+}
+
+}  // namespace
+}  // namespace hoctomap

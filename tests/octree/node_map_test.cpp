@@ -1,0 +1,90 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "hoctomap/octree/NodeMap.h"
+
+#include <gtest/gtest.h>
+
+#include <limits>
+
+#include "support/RandomScenes.h"
+
+namespace hoctomap {
+namespace {
+
+NodeMap mapOf(const PointCloud& hits, double resolution) {
+  NodeMap map(resolution, {});
+  Beams beams;
+  beams.origin = Eigen::Vector3f(2.0F, 0.1F, 0.1F);
+  beams.hits = hits;
+  map.update(*makeReferenceScanUpdate(), beams);
+  return map;
+}
+
+TEST(NodeMap, RefusesResolutionsThatAreNone) {
+  for (const double bad :
+       {0.0, -0.1, std::numeric_limits<double>::quiet_NaN(), std::numeric_limits<double>::infinity()}) {
+    EXPECT_THROW(NodeMap(bad, {}), std::invalid_argument);
+  }
+}
+
+TEST(NodeMap, TheModelOfItsLabelReachesTheTree) {
+  OccupancyModel model;
+  model.prob_hit = 0.8;
+  model.prob_miss = 0.3;
+  model.clamping_min = 0.2;
+  model.clamping_max = 0.9;
+  model.occupancy_threshold = 0.6;
+  const NodeMap map(0.1, model);
+  EXPECT_NEAR(map.tree().getProbHit(), 0.8, 1e-6);
+  EXPECT_NEAR(map.tree().getProbMiss(), 0.3, 1e-6);
+  EXPECT_NEAR(map.tree().getClampingThresMin(), 0.2, 1e-6);
+  EXPECT_NEAR(map.tree().getClampingThresMax(), 0.9, 1e-6);
+  EXPECT_NEAR(map.tree().getOccupancyThres(), 0.6, 1e-6);
+}
+
+TEST(NodeMap, CountsAndListsVoxelsAtItsResolution) {
+  test::Rng rng(1);
+  // A solid block makes pruned occupied leaves; the counts must not depend on pruning.
+  PointCloud block;
+  for (int x = 0; x < 8; ++x) {
+    for (int y = 0; y < 8; ++y) {
+      for (int z = 0; z < 8; ++z)
+        block.emplace_back(0.1F * (0.5F + float(x)), 0.1F * (0.5F + float(y)), 0.1F * (0.5F + float(z)));
+    }
+  }
+  const NodeMap map = mapOf(block, 0.1);
+  octomap::OcTree expanded(map.tree());
+  EXPECT_LT(map.tree().getNumLeafNodes(), 512U);
+  expanded.expand();
+  VoxelCounts counted;
+  for (auto leaf = expanded.begin_leafs(); leaf != expanded.end_leafs(); ++leaf) {
+    (expanded.isNodeOccupied(*leaf) ? counted.occupied : counted.free) += 1;
+  }
+  EXPECT_EQ(counted.occupied, 512U);
+  EXPECT_EQ(map.countVoxels().occupied, counted.occupied);
+  EXPECT_EQ(map.countVoxels().free, counted.free);
+  ASSERT_EQ(map.occupiedVoxels().size(), 512U);
+  for (const auto& voxel : map.occupiedVoxels()) {
+    const auto* node = expanded.search(voxel.x(), voxel.y(), voxel.z());
+    ASSERT_NE(node, nullptr);
+    EXPECT_TRUE(expanded.isNodeOccupied(node));
+  }
+  EXPECT_TRUE(map.occupiedBox().min().isApprox(Eigen::Vector3d::Zero(), 1e-9) ||
+              map.occupiedBox().min().norm() < 1e-9);
+  EXPECT_TRUE(map.occupiedBox().max().isApprox(Eigen::Vector3d::Constant(0.8), 1e-6));
+}
+
+TEST(NodeMap, TheBoxForgetsAnOutlierThatIsCleared) {
+  NodeMap map = mapOf({{0.05F, 0.05F, 0.05F}, {1.05F, 0.05F, 0.05F}}, 0.1);
+  const auto engine = makeReferenceScanUpdate();
+  EXPECT_NEAR(map.occupiedBox().max().x(), 1.1, 1e-6);
+  const PointCloud hit{{0.05F, 0.05F, 0.05F}};
+  Beams beams;
+  beams.origin = Eigen::Vector3f(2.0F, 0.05F, 0.05F);
+  beams.hits = hit;
+  for (int i = 0; i < 10; ++i) map.update(*engine, beams);
+  EXPECT_NEAR(map.occupiedBox().max().x(), 0.1, 1e-6);
+  EXPECT_TRUE(NodeMap(0.1, {}).occupiedBox().isEmpty());
+}
+
+}  // namespace
+}  // namespace hoctomap
