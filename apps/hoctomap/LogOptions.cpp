@@ -3,6 +3,7 @@
 
 #include <thread>
 
+#include "hoctomap/config/IniDocument.h"
 #include "hoctomap/geometry/Errors.h"
 #include "hoctomap/geometry/Pose.h"
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "MappingSetup.h"
 
+#include "hoctomap/octree/BlockScanUpdate.h"
 #include "hoctomap/tabletop/Tabletop.h"
 #include "hoctomap/tabletop/TabletopSegmentation.h"
 
@@ -16,6 +17,7 @@ MappingStrategies makeStrategies(const Settings& settings) {
   strategies.segmentation = makeSegmentation(settings);
   strategies.labeling = makeTabletopLabeling();
   strategies.relations = makeTabletopRelations();
+  strategies.update = makeBlockScanUpdate();
   strategies.association = makeTabletopAssociation(settings.association_margin);
   if (!settings.monolithic) strategies.existence = std::make_unique<BeamExistenceModel>(settings.existence);
   return strategies;

@@ -3,12 +3,11 @@
 
 #include <Eigen/Geometry>
 #include <iomanip>
-#include <locale>
 #include <sstream>
 
 #include "hoctomap/geometry/Errors.h"
 #include "hoctomap/io/LabelPng.h"
-#include "hoctomap/io/TextFile.h"
+#include "hoctomap/io/CsvText.h"
 #include "hoctomap/tabletop/LabelImage.h"
 
 namespace hoctomap {
@@ -44,21 +43,16 @@ void SegmentWriter::write(const Measurement& z, std::span<const Segment> segment
     for (const auto value : labelPoints(z, segments)) values += std::to_string(value) + "\n";
     writeTextFile(directory_ / "labels" / scanName(z.scan, ".csv"), values);
   }
-  std::ostringstream rows;
-  rows.imbue(std::locale::classic());
-  rows << std::fixed << std::setprecision(6);
   for (std::size_t i = 0; i < segments.size(); ++i) {
     Eigen::AlignedBox3d box;
     for (const auto p : segments[i].points) box.extend(z.world_points[p].cast<double>());
     if (box.isEmpty()) continue;
-    const Eigen::Vector3d c = box.center();
-    const Eigen::Vector3d h = 0.5 * box.sizes();
-    rows << z.scan << "," << i << "," << labeling.label(z, segments[i]).name << ","
-         << segments[i].points.size();
-    for (const double value : {c.x(), c.y(), c.z(), h.x(), h.y(), h.z()}) rows << "," << value;
-    rows << "\n";
+    rows_ += std::to_string(z.scan) + "," + std::to_string(i) + "," + labeling.label(z, segments[i]).name + "," +
+             std::to_string(segments[i].points.size());
+    appendVector(rows_, box.center());
+    appendVector(rows_, 0.5 * box.sizes());
+    rows_ += "\n";
   }
-  rows_ += rows.str();
 }
 
 void SegmentWriter::finish() {

@@ -13,14 +13,18 @@ namespace {
 
 using Rng = std::mt19937_64;
 
-double uniform(Rng& rng, double low, double high) { return std::uniform_real_distribution<double>(low, high)(rng); }
-int uniformInt(Rng& rng, int low, int high) { return std::uniform_int_distribution<int>(low, high)(rng); }
+double uniform(Rng& rng, double low, double high) {
+  return std::uniform_real_distribution<double>(low, high)(rng);
+}
+int uniformInt(Rng& rng, int low, int high) {
+  return std::uniform_int_distribution<int>(low, high)(rng);
+}
 
 TEST(AddRepeatedly, EqualsTheLoopToTheLastBit) {
   Rng rng(1);
   for (int trial = 0; trial < 20000; ++trial) {
     double delta = std::exp(uniform(rng, -10.0, 10.0));
-    if (trial % 3 == 0) delta = static_cast<float>(delta);                    // many zeros at the end: exact sums
+    if (trial % 3 == 0) delta = static_cast<float>(delta);  // many zeros at the end: exact sums
     if (trial % 5 == 0) delta = std::ldexp(uniformInt(rng, 1, 9), -52) + 1;  // ties
     const double start = trial % 7 == 0 ? -delta * uniform(rng, 0.0, 3.0) : delta * uniform(rng, 0.0, 2.0);
     const int count = uniformInt(rng, 0, trial % 50 == 0 ? 66000 : 600);
@@ -83,7 +87,8 @@ TEST(RayClip, EqualsTheWalkThroughTheBox) {
       box.min[i] = a;
       box.max[i] = a + uniformInt(rng, 0, 50);
     }
-    const auto first = std::find_if(cells.begin(), cells.end(), [&](const Cell& c) { return box.contains(c.key); });
+    const auto first =
+        std::find_if(cells.begin(), cells.end(), [&](const Cell& c) { return box.contains(c.key); });
     const auto last = std::find_if(first, cells.end(), [&](const Cell& c) { return !box.contains(c.key); });
     const auto stretch = clipRegularRay(ray, box);
     ASSERT_EQ(stretch.has_value(), first != cells.end());
@@ -103,7 +108,8 @@ TEST(RayClip, EqualsTheWalkThroughTheBox) {
 TEST(MortonCode, StepsAndComesBack) {
   Rng rng(3);
   for (int trial = 0; trial < 10000; ++trial) {
-    const Key key{uniformInt(rng, 1, kMaxKey - 1), uniformInt(rng, 1, kMaxKey - 1), uniformInt(rng, 1, kMaxKey - 1)};
+    const Key key{uniformInt(rng, 1, kMaxKey - 1), uniformInt(rng, 1, kMaxKey - 1),
+                  uniformInt(rng, 1, kMaxKey - 1)};
     ASSERT_EQ(keyOf(codeOf(key)), key);
     for (std::size_t axis = 0; axis < 3; ++axis) {
       const Code place = codeOf(key) & kAxisMask[axis];

@@ -13,16 +13,19 @@ namespace {
 
 constexpr std::array kResolutions{0.0005, 0.001, 0.002, 0.004, 0.0073, 0.01, 0.05, 0.0625, 0.1, 0.2};
 
-float asFloat(double x) { return static_cast<float>(x); }
+float asFloat(double x) {
+  return static_cast<float>(x);
+}
 
 }  // namespace
 
 SceneMaker::SceneMaker(std::uint64_t seed) : rng_(seed) {
   resolution_ = kResolutions[static_cast<std::size_t>(pick(kResolutions.size()))];
-  extent_ = std::exp(uniform(std::log(3.0), std::log(250.0)));
+  extent_ = std::exp(uniform(std::log(3.0), std::log(90.0)));
   switch (pick(5)) {
     case 0:  // at the end of the key range: parts of the scene beyond it
-      center_ = Eigen::Vector3d(pick(2) ? 32768.0 : -32768.0, uniform(-30000, 30000), pick(2) ? 32768.0 : 0.0);
+      center_ =
+          Eigen::Vector3d(pick(2) ? 32768.0 : -32768.0, uniform(-30000, 30000), pick(2) ? 32768.0 : 0.0);
       break;
     case 1:  // far from the tree's centre, where single precision is coarse
       center_ = Eigen::Vector3d(uniform(-30000, 30000), uniform(-30000, 30000), uniform(-30000, 30000));
@@ -60,8 +63,9 @@ Eigen::Vector3f SceneMaker::endpoint(const Eigen::Vector3f& origin) {
       for (const int i : {pick(3), pick(3)}) p[i] = origin[i];
       break;
     case 1:  // an exact diagonal
-      p = origin + Eigen::Vector3f(pick(2) ? 1.0F : -1.0F, pick(2) ? 1.0F : -1.0F, static_cast<float>(pick(2))) *
-                       asFloat(std::floor(uniform(0, extent_)) * resolution_);
+      p = origin +
+          Eigen::Vector3f(pick(2) ? 1.0F : -1.0F, pick(2) ? 1.0F : -1.0F, static_cast<float>(pick(2))) *
+              asFloat(std::floor(uniform(0, extent_)) * resolution_);
       break;
     case 2:  // no length, or next to none
       p = origin;
@@ -132,8 +136,10 @@ std::string otBytes(const octomap::OcTree& tree) {
 std::string difference(const octomap::OcTree& a, const octomap::OcTree& b) {
   if (a.size() != b.size()) return "sizes " + std::to_string(a.size()) + " and " + std::to_string(b.size());
   if (a.size() != a.calcNumNodes()) return "size is not the number of nodes";
-  if (!(a == b)) return "a node differs";
   if (otBytes(a) != otBytes(b)) return "the bytes differ";
+  constexpr std::size_t kManyNodes =
+      20000;  // octomap's iterators are slow, and the bytes hold every node anyway
+  if (a.size() < kManyNodes && !(a == b)) return "a node differs";
   return {};
 }
 

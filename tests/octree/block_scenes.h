@@ -13,8 +13,8 @@
 
 namespace hoctomap::test {
 
-/// Random scans made to hit the awkward cases: everything is measured in voxels and then scaled by the resolution, so
-/// that voxel borders, edges, corners and exact diagonals are met on purpose.
+/// Random scans made to hit the awkward cases: everything is measured in voxels and then scaled by the
+/// resolution, so that voxel borders, edges, corners and exact diagonals are met on purpose.
 class SceneMaker {
  public:
   explicit SceneMaker(std::uint64_t seed);
@@ -22,7 +22,8 @@ class SceneMaker {
   /// One scan. `hits` and `passing` live as long as the next call.
   Beams scan(std::size_t hits, std::size_t passing);
 
-  /// A box that the beams may cross, miss, graze, start in or end in; may be inverted or beyond the key range.
+  /// A box that the beams may cross, miss, graze, start in or end in; may be inverted or beyond the key
+  /// range.
   Eigen::AlignedBox3d box();
 
   [[nodiscard]] double resolution() const { return resolution_; }

@@ -1,0 +1,133 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "ProcessGuards.h"
+
+#include <fcntl.h>
+#include <signal.h>
+#include <sys/prctl.h>
+#include <sys/resource.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <cerrno>
+#include <cstring>
+#include <string>
+
+#include "hoctomap/geometry/Errors.h"
+#include "hoctomap/io/EscapedText.h"
+#include "hoctomap/io/ScanStream.h"
+
+namespace hoctomap {
+
+namespace {
+
+void setLimit(__rlimit_resource resource, std::uint64_t value) {
+  rlimit limit{};
+  getrlimit(resource, &limit);
+  limit.rlim_cur = std::min<rlim_t>(value, limit.rlim_max);
+  limit.rlim_max = limit.rlim_cur;
+  setrlimit(resource, &limit);
+}
+
+/// A text put together in a signal handler: no memory is taken.
+class SafeText {
+ public:
+  void add(const char* text) {
+    for (; *text != '\0' && at_ + 1 < sizeof text_; ++text) text_[at_++] = *text;
+  }
+  void add(std::uint64_t number) {
+    char digits[21] = {};
+    std::size_t first = sizeof digits - 1;
+    do {
+      digits[--first] = static_cast<char>('0' + number % 10);
+      number /= 10;
+    } while (number != 0);
+    add(digits + first);
+  }
+  [[nodiscard]] const char* get() const { return text_; }
+
+ private:
+  char text_[1000] = {};
+  std::size_t at_ = 0;
+};
+
+/// What the handler needs. A signal handler takes no context, so this is one of the few things of which a
+/// process has one.
+struct CrashReport {
+  int fd = -1;
+  const ReadProgress* progress = nullptr;
+  std::vector<std::string> names;
+  std::vector<unsigned char> stack;  // for stack overflows
+};
+
+CrashReport& crashReport() {
+  static CrashReport report;
+  return report;
+}
+
+void onCrash(int signal) {
+  const CrashReport& report = crashReport();
+  const StreamPosition at = report.progress->get();
+  SafeText text;
+  text.add(at.log < report.names.size() ? report.names[at.log].c_str() : "the log");
+  text.add(": object ");
+  text.add(at.object);
+  text.add(" at byte ");
+  text.add(at.offset);
+  text.add(signal == SIGXCPU ? ": takes too long to read" : ": crashes the log reader (signal ");
+  if (signal != SIGXCPU) {
+    text.add(static_cast<std::uint64_t>(signal));
+    text.add("): it is damaged");
+  }
+  const int code = signal == SIGXCPU ? 6 : 3;
+  sendErrorFromSignalHandler(report.fd, code, text.get(), at);
+  _exit(code);
+}
+
+}  // namespace
+
+void dieWithParent() {
+  prctl(PR_SET_PDEATHSIG, SIGKILL);
+}
+
+void limitProcess(const LogReadOptions& options) {
+  constexpr std::uint64_t kBaseSeconds = 300;
+  constexpr std::uint64_t kSecondsPerMegabyte = 10;
+  std::uint64_t bytes = 0;
+  for (const auto& log : options.logs) {
+    std::error_code error;
+    const auto size = std::filesystem::file_size(log, error);
+    if (!error) bytes += size;
+  }
+  setLimit(RLIMIT_CPU, kBaseSeconds + kSecondsPerMegabyte * (bytes >> 20));
+  setLimit(RLIMIT_CORE, 0);
+#ifndef __SANITIZE_ADDRESS__  // which maps terabytes
+  setLimit(RLIMIT_AS, options.address_space_bytes);
+#endif
+  struct stat out {};
+  if (fstat(STDOUT_FILENO, &out) == 0 && !S_ISREG(out.st_mode)) setLimit(RLIMIT_FSIZE, 0);
+}
+
+void reportCrashes(int fd, const std::vector<std::filesystem::path>& logs, const ReadProgress& progress) {
+  CrashReport& report = crashReport();
+  report.fd = fd;
+  report.progress = &progress;
+  for (const auto& log : logs) report.names.push_back(escapedText(log.string(), 500));
+  report.stack.resize(std::size_t{1} << 16);
+  const stack_t stack{.ss_sp = report.stack.data(), .ss_flags = 0, .ss_size = report.stack.size()};
+  sigaltstack(&stack, nullptr);
+  struct sigaction action {};
+  action.sa_handler = onCrash;
+  action.sa_flags = SA_ONSTACK | static_cast<int>(SA_RESETHAND);
+  for (const int signal : {SIGSEGV, SIGBUS, SIGABRT, SIGFPE, SIGILL, SIGXCPU})
+    sigaction(signal, &action, nullptr);
+}
+
+int takeOverStdout() {
+  const int stream = fcntl(STDOUT_FILENO, F_DUPFD_CLOEXEC, 3);
+  if (stream < 0) throw FileError(std::string("cannot use stdout: ") + std::strerror(errno));
+  const int nowhere = open("/dev/null", O_WRONLY | O_CLOEXEC);
+  if (nowhere >= 0) dup2(nowhere, STDOUT_FILENO);
+  return stream;
+}
+
+}  // namespace hoctomap

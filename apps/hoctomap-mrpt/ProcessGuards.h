@@ -1,0 +1,34 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <filesystem>
+#include <vector>
+
+#include "hoctomap/io/LogReadOptions.h"
+#include "hoctomap/mrpt_io/ReadProgress.h"
+
+namespace hoctomap {
+
+/// Ends this process when the one that started it ends.
+void dieWithParent();
+
+/// Limits on memory, CPU time (by the size of the logs), core files; and, if stdout is no regular file, on
+/// writing files at all. They hold until the process ends.
+void limitProcess(const LogReadOptions& options);
+
+/// More than 10^7 points of three floats: no single array of an honest log is larger.
+inline constexpr std::size_t kLargestArray = std::size_t{128} << 20;
+
+/// Single allocations beyond `bytes` fail with std::bad_alloc from now on, also those of MRPT: it takes
+/// counts from a log as they are and fills the memory with zeros before it notices that nothing follows.
+void setAllocationCeiling(std::size_t bytes);
+
+/// A crash under a foreign log becomes an error message on `fd`, a scan stream, and exit code 3 (6 if the CPU
+/// time is used up).
+void reportCrashes(int fd, const std::vector<std::filesystem::path>& logs, const ReadProgress& progress);
+
+/// Moves stdout to a descriptor of its own and returns it; what libraries print goes nowhere, so that it
+/// cannot get between the messages.
+[[nodiscard]] int takeOverStdout();
+
+}  // namespace hoctomap

@@ -1,0 +1,51 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include <memory>
+#include <string>
+
+#include "Verb.h"
+#include "hoctomap/geometry/Errors.h"
+#include "hoctomap/io/MapReader.h"
+#include "hoctomap/mrpt_io/RenderMap.h"
+
+namespace hoctomap {
+namespace {
+
+/// `1600x1000` as width and height.
+void parseSize(const std::string& text, RenderOptions& options) {
+  const auto cross = text.find('x');
+  std::size_t used = 0;
+  try {
+    if (cross == std::string::npos || text.find_first_not_of("0123456789x") != std::string::npos) throw 0;
+    options.width = static_cast<unsigned>(std::stoul(text.substr(0, cross)));
+    options.height = static_cast<unsigned>(std::stoul(text.substr(cross + 1), &used));
+    if (cross + 1 + used != text.size()) throw 0;
+  } catch (...) {
+    throw ConfigError("--size: \"" + text + "\" is not of the form WIDTHxHEIGHT");
+  }
+}
+
+}  // namespace
+
+void addRenderCommand(CLI::App& app, VerbRun& run) {
+  auto* verb = app.add_subcommand("render", "a picture of a map, without a display");
+  const auto map = std::make_shared<std::string>();
+  const auto out = std::make_shared<std::string>();
+  const auto size = std::make_shared<std::string>();
+  const auto options = std::make_shared<RenderOptions>();
+  verb->add_option("map", *map, "map directory")->required();
+  verb->add_option("-o,--output", *out, "PNG to write")->required();
+  verb->add_option("--size", *size, "pixels, WIDTHxHEIGHT")->default_str("1600x1000");
+  verb->add_option("--view", options->view, "where to look from")
+      ->check(CLI::IsMember(renderViews()))
+      ->capture_default_str();
+  verb->add_flag("--labels", options->labels, "also boxes and labels of the nodes");
+  verb->callback([=, &run] {
+    run = [=] {
+      if (!size->empty()) parseSize(*size, *options);
+      renderMap(readMap(*map).hierarchy, *options, *out);
+      return 0;
+    };
+  });
+}
+
+}  // namespace hoctomap

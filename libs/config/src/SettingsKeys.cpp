@@ -1,0 +1,242 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The table of keys: add a setting here and in docs/configuration.md, nowhere else.
+#include "SettingsKeys.h"
+
+#include <array>
+
+namespace hoctomap::keys {
+namespace {
+
+template <class>
+struct OwnerOf;
+template <class Member, class Owner>
+struct OwnerOf<Member Owner::*> {
+  using type = Owner;
+};
+
+// The member that a chain of pointers to members leads to.
+template <auto First, auto... Rest>
+auto& at(typename OwnerOf<decltype(First)>::type& owner) {
+  return ((owner.*First).*....*Rest);
+}
+
+// Shorter names for the rows below.
+using S = Settings;
+using T = TabletopSegmentationConfig;
+using E = BeamExistenceConfig;
+using L = Limits;
+using P = LabelProfile;
+using O = OccupancyModel;
+using X = ExistenceParameters;
+
+constexpr Range any{};
+constexpr Range share{0.0, 1.0};
+constexpr Range probability_range{0.0, 1.0, true, true};
+constexpr Range below_half{0.0, 0.5, true, true};
+constexpr Range above_half{0.5, 1.0, true, true};
+constexpr Range count{1.0, 1e6};
+constexpr Range big_count{1.0, 1e15};
+
+constexpr Range above(double min) {
+  return {min, Range{}.max, true, false};
+}
+constexpr Range within(double min, double max) {
+  return {min, max};
+}
+constexpr Range aboveUpTo(double min, double max) {
+  return {min, max, true, false};
+}
+
+constexpr auto settings_keys = std::to_array<Key<Settings>>({
+    {"mapping", "monolithic", "", any,
+     "One map of the root alone, no segmentation, beams unbounded: what stock OctoMap builds "
+     "(`--monolithic`)",
+     &at<&S::monolithic>},
+    {"mapping", "association_margin", "m", within(0, 1),
+     "The box of a segment is grown by this much on every side before it is compared with the boxes of nodes",
+     &at<&S::association_margin>},
+    {"mapping", "checkpoint_scans", "scans", count,
+     "The map is committed to disk after every so many scans; a killed run loses no more",
+     &at<&S::checkpoint_scans>},
+    {"mapping", "confirm_scans", "scans", within(1, 1000),
+     "Scans that must show a new node before it enters the map; 1: it enters at once",
+     &at<&S::confirm_scans>},
+
+    {"poses", "max_gap", "s", within(0, 3600),
+     "Largest time between two poses of the log that is interpolated over; scans in longer gaps are skipped",
+     &at<&S::poses, &PosesConfig::max_gap>},
+
+    {"sensor", "min_range", "m", within(0, 1e4), "Points nearer than this are dropped",
+     &at<&S::sensor, &SensorConfig::min_range>},
+    {"sensor", "max_range", "m", above(0),
+     "A beam that is longer clears space up to this range and marks nothing; a label may lower it",
+     &at<&S::sensor, &SensorConfig::max_range>, true},
+    {"sensor", "noise_constant", "m", within(0, 1),
+     "Noise of a range z: sigma = noise_constant + noise_quadratic z^2",
+     &at<&S::existence, &E::noise, &RangeNoise::constant>},
+    {"sensor", "noise_quadratic", "1/m", within(0, 1), "See `noise_constant`",
+     &at<&S::existence, &E::noise, &RangeNoise::quadratic>},
+
+    {"segmentation", "method", "", any, "How the objects on a table are told apart (Section IV-A)",
+     &at<&S::method>},
+    {"segmentation", "table_height_min", "m", within(-1000, 1000),
+     "Lowest height of a table: z of its centre in the world frame", &at<&S::tabletop, &T::table_height_min>},
+    {"segmentation", "table_height_max", "m", within(-1000, 1000), "Largest height of a table",
+     &at<&S::tabletop, &T::table_height_max>},
+    {"segmentation", "plane_tolerance", "m", aboveUpTo(0, 1),
+     "What a table may depart from its plane; the noise of the range is added",
+     &at<&S::tabletop, &T::plane_tolerance>},
+    {"segmentation", "plane_max_tilt", "degrees", within(0, 45),
+     "Largest angle between the normal of a table and the vertical", &at<&S::tabletop, &T::plane_max_tilt>},
+    {"segmentation", "min_table_area", "m^2", aboveUpTo(0, 100), "Planes of which less is seen are no tables",
+     &at<&S::tabletop, &T::min_table_area>},
+    {"segmentation", "outline_cell", "m", within(0.001, 1), "Cell of the outline of a table",
+     &at<&S::tabletop, &T::outline_cell>},
+    {"segmentation", "ransac_draws", "", count, "Draws of the random search for one plane",
+     &at<&S::tabletop, &T::ransac_draws>},
+    {"segmentation", "seed", "", within(0, 4294967295.0),
+     "Seed of the random draws: the same seed gives the same map", &at<&S::tabletop, &T::seed>},
+    {"segmentation", "cluster_tolerance", "m", aboveUpTo(0, 1),
+     "Points above a table that are nearer to each other than this belong to one object",
+     &at<&S::tabletop, &T::cluster_tolerance>},
+    {"segmentation", "object_height_max", "m", aboveUpTo(0, 10),
+     "Height above the table; what reaches higher is background", &at<&S::tabletop, &T::object_height_max>},
+    {"segmentation", "object_size_max", "m", aboveUpTo(0, 100),
+     "Horizontal extent; what is wider is background", &at<&S::tabletop, &T::object_size_max>},
+    {"segmentation", "min_object_height", "m", within(0, 10),
+     "Clusters that rise less above the table (paper, cables) are background",
+     &at<&S::tabletop, &T::min_object_height>},
+    {"segmentation", "min_object_size", "m", within(0, 10),
+     "Clusters whose largest extent is smaller are background", &at<&S::tabletop, &T::min_object_size>},
+    {"segmentation", "min_cluster_points", "points", count, "Clusters of fewer points are background",
+     &at<&S::tabletop, &T::min_cluster_points>},
+    {"segmentation", "object_noise_max", "m", aboveUpTo(0, 10),
+     "Where 3 sigma of the range is more, objects are not told apart",
+     &at<&S::tabletop, &T::object_noise_max>},
+    {"segmentation", "contact_height", "m", within(0, 10),
+     "Height above the table at which an object must begin; what begins higher is background",
+     &at<&S::tabletop, &T::contact_height>},
+
+    {"existence", "pose_shift", "m", within(0, 1),
+     "Largest sideways error of the pose of a node or scan that is searched out; 0.006 for a fixed camera, "
+     "0.03 for a hand-held one",
+     &at<&S::existence, &E::pose_shift>},
+    {"existence", "pose_depth", "m", within(0, 1), "The same error along the beam",
+     &at<&S::existence, &E::pose_depth>},
+    {"existence", "window", "m", within(0, 0.1),
+     "Half width of the neighbourhood on the node's surface that a beam is compared with",
+     &at<&S::existence, &E::window>},
+    {"existence", "tolerance", "m", within(0, 1),
+     "Added to 0.87 voxels and 3 sigma of the range, within which a beam ends on the node",
+     &at<&S::existence, &E::tolerance>},
+    {"existence", "min_beams", "beams", count,
+     "Fewer beams that end on or beyond a node say nothing about it", &at<&S::existence, &E::min_beams>},
+    {"existence", "min_visible", "", share,
+     "Share of the beams towards a node that must end on or beyond it, or the scan says nothing",
+     &at<&S::existence, &E::min_visible>},
+    {"existence", "min_in_view", "", share,
+     "Share of a node that must lie inside the image, or the scan says nothing",
+     &at<&S::existence, &E::min_in_view>},
+    {"existence", "max_beams", "beams", count, "Beams that are compared for one node and scan, at most",
+     &at<&S::existence, &E::max_beams>},
+
+    {"limits", "max_inflated_bytes", "bytes", big_count, "Size of a log after decompression",
+     &at<&S::limits, &L::max_inflated_bytes>},
+    {"limits", "max_inflate_ratio", "", within(1, 1e6),
+     "Decompressed by compressed size, looked at beyond 64 MB", &at<&S::limits, &L::max_inflate_ratio>},
+    {"limits", "max_object_bytes", "bytes", big_count, "Size of one object of a log",
+     &at<&S::limits, &L::max_object_bytes>},
+    {"limits", "max_points", "points", big_count, "Points of one scan", &at<&S::limits, &L::max_points>},
+    {"limits", "max_nodes", "nodes", big_count, "Nodes of the hierarchy", &at<&S::limits, &L::max_nodes>},
+    {"limits", "max_depth", "", within(1, 1000), "Depth of the hierarchy", &at<&S::limits, &L::max_depth>},
+    {"limits", "max_skipped_share", "", share,
+     "Share of the 3D scans that may be skipped; beyond it the map is written, but the exit code is 3",
+     &at<&S::limits, &L::max_skipped_share>},
+});
+
+constexpr auto settings_orders = std::to_array<Order<Settings>>({
+    {&at<&S::sensor, &SensorConfig::min_range>, &at<&S::sensor, &SensorConfig::max_range>, true},
+    {&at<&S::tabletop, &T::table_height_min>, &at<&S::tabletop, &T::table_height_max>, true},
+    {&at<&S::tabletop, &T::min_object_height>, &at<&S::tabletop, &T::object_height_max>, true},
+    {&at<&S::tabletop, &T::min_object_size>, &at<&S::tabletop, &T::object_size_max>, true},
+    {&at<&S::existence, &E::min_beams>, &at<&S::existence, &E::max_beams>, false},
+});
+
+constexpr auto label_keys = std::to_array<Key<LabelProfile>>({
+    {"label.NAME", "resolution", "m", within(0.0001, 10), "Edge of the smallest voxel", &at<&P::resolution>},
+    {"label.NAME", "max_range", "m", above(0),
+     "As `[sensor] max_range`, for nodes of this label; the smaller counts", &at<&P::max_range>, true},
+    {"label.NAME", "prob_hit", "", above_half,
+     "Probability of being occupied that a beam's end gives a voxel", &at<&P::occupancy, &O::prob_hit>},
+    {"label.NAME", "prob_miss", "", below_half, "The same for a voxel that a beam passes through",
+     &at<&P::occupancy, &O::prob_miss>},
+    {"label.NAME", "clamping_min", "", probability_range, "Least probability that a voxel can get",
+     &at<&P::occupancy, &O::clamping_min>},
+    {"label.NAME", "clamping_max", "", probability_range, "Largest probability that a voxel can get",
+     &at<&P::occupancy, &O::clamping_max>},
+    {"label.NAME", "occupancy_threshold", "", probability_range,
+     "Probability from which a voxel counts as occupied", &at<&P::occupancy, &O::occupancy_threshold>},
+    {"label.NAME", "frame", "", any,
+     "Axes of a new node: of the world, or the principal components of its first segment; the root's are the "
+     "world's",
+     &at<&P::frame>},
+    {"label.NAME", "carve", "", any,
+     "Beams that clear the node's free space: of its own segments (the paper), or all of the scan that cross "
+     "its box",
+     &at<&P::carve>},
+    {"label.NAME", "existence", "", any,
+     "Whether nodes of this label are removed when they are gone (Eq. 8); the root never is",
+     &at<&P::existence_enabled>},
+    {"label.NAME", "existence_prior", "", probability_range, "P(n) of Eq. 8", &at<&P::existence, &X::prior>},
+    {"label.NAME", "p_present", "", above_half,
+     "P(n given z) of a scan that clearly shows the node; also where a new node starts",
+     &at<&P::existence, &X::p_present>},
+    {"label.NAME", "p_absent", "", below_half,
+     "P(n given z) of a scan that clearly shows that the node is gone", &at<&P::existence, &X::p_absent>},
+    {"label.NAME", "existence_clamp_min", "", below_half, "Least probability of existence",
+     &at<&P::existence, &X::clamp_min>},
+    {"label.NAME", "existence_clamp_max", "", above_half,
+     "Largest probability of existence, so that a node can die after few contradictions",
+     &at<&P::existence, &X::clamp_max>},
+});
+
+constexpr auto label_orders = std::to_array<Order<LabelProfile>>({
+    {&at<&P::occupancy, &O::clamping_min>, &at<&P::occupancy, &O::clamping_max>, true},
+    {&at<&P::occupancy, &O::clamping_min>, &at<&P::occupancy, &O::occupancy_threshold>, true},
+    {&at<&P::occupancy, &O::occupancy_threshold>, &at<&P::occupancy, &O::clamping_max>, false},
+    {&at<&P::existence, &X::p_absent>, &at<&P::existence, &X::prior>, true},
+    {&at<&P::existence, &X::prior>, &at<&P::existence, &X::p_present>, true},
+});
+
+}  // namespace
+
+std::span<const Key<Settings>> settingsKeys() {
+  return settings_keys;
+}
+std::span<const Order<Settings>> settingsOrders() {
+  return settings_orders;
+}
+std::span<const Key<LabelProfile>> labelKeys() {
+  return label_keys;
+}
+std::span<const Order<LabelProfile>> labelOrders() {
+  return label_orders;
+}
+
+LabelProfile defaultProfile(const Label& label) {
+  LabelProfile profile;
+  if (label == labels::background) {
+    profile.resolution = 0.05;
+    profile.frame = FrameChoice::world;
+    // The space above the tables is cleared by beams that end on them: navigation needs it.
+    profile.carve = Carve::scan;
+    profile.existence_enabled = false;
+  } else if (label == labels::table) {
+    profile.resolution = 0.01;
+  } else if (label == labels::object) {
+    profile.resolution = 0.002;
+  }
+  return profile;
+}
+
+}  // namespace hoctomap::keys

@@ -1,0 +1,17 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <Eigen/Core>
+#include <filesystem>
+#include <string>
+
+namespace hoctomap {
+
+/// `,` and the number with six decimals, the same in any locale; zero has no sign.
+void appendNumber(std::string& line, double value);
+void appendVector(std::string& line, const Eigen::Vector3d& value);
+
+/// Replaces the file. @throws FileError
+void writeTextFile(const std::filesystem::path& path, const std::string& text);
+
+}  // namespace hoctomap

@@ -1,0 +1,43 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "hoctomap/hierarchy/MapHierarchy.h"
+#include "hoctomap/io/Manifest.h"
+#include "hoctomap/mapping/UpdateReport.h"
+
+namespace hoctomap {
+
+struct MapReadOptions {
+  std::optional<std::uint64_t> at_scan;  ///< the kept snapshot of this scan; default: the map itself
+  bool removed = false;                  ///< whether to load the octrees of removed nodes, too
+};
+
+/// A map of a directory. Writing it again gives the same bytes.
+struct StoredMap {
+  Manifest manifest;
+  MapHierarchy hierarchy;
+  std::vector<RemovedNode> removed;  ///< empty unless asked for
+};
+
+/// Loads a map: manifest and octrees. Every octree file is checked against its size and hash and validated
+/// before OctoMap sees it.
+/// @throws MapError naming the file; FileError if a file cannot be read.
+[[nodiscard]] StoredMap readMap(const std::filesystem::path& directory, const MapReadOptions& options = {});
+
+/// One thing that is wrong with a file of a map.
+struct Damage {
+  std::string path;  ///< relative to the map directory
+  std::string what;
+};
+
+/// Checks every file that the manifest names: size, hash, and the structure of the octrees. Empty: all whole.
+[[nodiscard]] std::vector<Damage> findDamage(const std::filesystem::path& directory,
+                                             const Manifest& manifest);
+
+}  // namespace hoctomap

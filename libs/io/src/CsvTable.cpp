@@ -1,0 +1,66 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "CsvTable.h"
+
+#include <utility>
+
+#include "hoctomap/geometry/Errors.h"
+
+namespace hoctomap {
+
+CsvTable::CsvTable(std::string name, std::string_view header) : name_(std::move(name)) {
+  add(std::string(header));
+}
+
+void CsvTable::resume(const std::filesystem::path& directory, const FileRecord& record) {
+  std::string bytes = readWholeFile(directory / name_);
+  const std::string file = (directory / name_).string();
+  if (bytes.size() < record.bytes) {
+    throw MapError(file + ": has " + std::to_string(bytes.size()) + " bytes, the manifest says " +
+                   std::to_string(record.bytes));
+  }
+  bytes.resize(static_cast<std::size_t>(record.bytes));
+  accepted_hash_ = Sha256();
+  accepted_hash_.add(bytes);
+  if (accepted_hash_.hex() != record.sha256) {
+    throw MapError(file + ": does not have the hash that the manifest says");
+  }
+  accepted_bytes_ = record.bytes;
+  pending_.clear();
+  fresh_ = false;
+}
+
+void CsvTable::resume(const std::filesystem::path& directory,
+                      const std::function<bool(std::string_view)>& keep) {
+  if (!std::filesystem::exists(directory / name_)) return;
+  const std::string bytes = readWholeFile(directory / name_);
+  pending_.clear();
+  std::string_view rest = bytes;
+  for (auto end = rest.find('\n'); end != std::string_view::npos; end = rest.find('\n')) {
+    const std::string_view row = rest.substr(0, end);
+    if (keep(row.substr(0, row.find(',')))) add(std::string(row));
+    rest.remove_prefix(end + 1);
+  }
+}
+
+FileRecord CsvTable::write(const Disk& disk, const std::filesystem::path& directory) const {
+  if (fresh_) {
+    disk.replace(directory / name_, pending_);
+    return {name_, pending_.size(), sha256Hex(pending_)};
+  }
+  // Also without pending rows: what a failed commit has left there goes.
+  if (std::filesystem::file_size(directory / name_) != accepted_bytes_ || !pending_.empty()) {
+    disk.extend(directory / name_, accepted_bytes_, pending_);
+  }
+  Sha256 hash = accepted_hash_.copy();
+  hash.add(pending_);
+  return {name_, accepted_bytes_ + pending_.size(), hash.hex()};
+}
+
+void CsvTable::accept() {
+  accepted_hash_.add(pending_);
+  accepted_bytes_ += pending_.size();
+  pending_.clear();
+  fresh_ = false;
+}
+
+}  // namespace hoctomap

@@ -1,0 +1,94 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The text of `hierarchy.yaml`. Written by hand rather than by a library: every number must be one for YAML
+// 1.1 and 1.2 readers, with all its digits, and the same manifest must give the same bytes.
+#include <span>
+
+#include "NumberText.h"
+#include "PoseText.h"
+#include "hoctomap/io/Manifest.h"
+
+namespace hoctomap {
+namespace {
+
+std::string flowList(std::span<const double> numbers) {
+  std::string text = "[";
+  for (const double number : numbers) text += (text.size() > 1 ? ", " : "") + yamlNumber(number);
+  return text + "]";
+}
+
+std::string vectorText(const Eigen::Vector3d& v) {
+  return flowList({v.data(), 3});
+}
+
+std::string fileText(const FileRecord& file) {
+  return "{path: " + yamlText(file.path) + ", bytes: " + std::to_string(file.bytes) +
+         ", sha256: " + yamlText(file.sha256) + "}";
+}
+
+std::string childrenText(const std::vector<NodeId>& children) {
+  std::string text = "[";
+  for (const NodeId child : children) text += (text.size() > 1 ? ", " : "") + std::to_string(child.value);
+  return text + "]";
+}
+
+std::string occupancyText(const OccupancyModel& model) {
+  return "{prob_hit: " + yamlNumber(model.prob_hit) + ", prob_miss: " + yamlNumber(model.prob_miss) +
+         ", clamping_min: " + yamlNumber(model.clamping_min) +
+         ", clamping_max: " + yamlNumber(model.clamping_max) +
+         ", occupancy_threshold: " + yamlNumber(model.occupancy_threshold) + "}";
+}
+
+std::string nodeText(const NodeRecord& node) {
+  const auto line = [](const char* key, const std::string& value) {
+    return "    " + std::string(key) + ": " + value + "\n";
+  };
+  const auto count = [&](const char* key, std::uint64_t value) { return line(key, std::to_string(value)); };
+  std::string text = "  - id: " + std::to_string(node.id.value) + "\n";
+  text += line("label", yamlText(node.label.name));
+  text += line("parent", node.parent ? std::to_string(node.parent->value) : "null");
+  text += line("children", childrenText(node.children));
+  text += line("pose", yamlText(poseText(node.parent_T_node)));
+  text += line("world_pose", yamlText(poseText(node.world_T_node)));
+  text += line("pose_matrix", flowList(matrixNumbers(node.parent_T_node)));
+  text += line("world_pose_matrix", flowList(matrixNumbers(node.world_T_node)));
+  text += line("resolution", yamlNumber(node.resolution));
+  text += line("existence", yamlNumber(node.existence));
+  text += line("existence_log_odds", yamlNumber(node.existence_log_odds));
+  text += line("obb", "{center: " + vectorText(node.box_center) +
+                          ", half_extents: " + vectorText(node.box_half_extents) + "}");
+  text += count("occupied_voxels", node.voxels.occupied);
+  text += count("free_voxels", node.voxels.free);
+  text += count("memory_bytes", node.memory_bytes);
+  text += count("first_scan", node.first_scan);
+  text += count("last_scan", node.last_scan);
+  text += count("version", node.version);
+  if (node.removed_scan) text += count("removed_scan", *node.removed_scan);
+  text += line("occupancy", occupancyText(node.occupancy));
+  text += "    files:\n      ot: " + fileText(node.ot) + "\n      bt: " + fileText(node.bt) + "\n";
+  return text;
+}
+
+std::string nodesText(const char* key, const std::vector<NodeRecord>& nodes) {
+  if (nodes.empty()) return std::string(key) + ": []\n";
+  std::string text = std::string(key) + ":\n";
+  for (const NodeRecord& node : nodes) text += nodeText(node);
+  return text;
+}
+
+}  // namespace
+
+std::string toYaml(const Manifest& manifest) {
+  std::string text = "# Hierarchy of octree maps; docs/map-format.md of hoctomap explains every key.\n";
+  text += "format_version: " + std::to_string(manifest.format_version) + "\n";
+  text += "generator: " + yamlText(manifest.generator) + "\n";
+  text += "scans: " + std::to_string(manifest.scans) + "\n";
+  text += "config_sha256: " + yamlText(manifest.config_sha256) + "\n";
+  text += "input: " + yamlText(manifest.input) + "\n";
+  text += "next_id: " + std::to_string(manifest.next_id.value) + "\n";
+  text += "files:\n  config: " + fileText(manifest.config) + "\n  events: " + fileText(manifest.events) +
+          "\n  existence: " + fileText(manifest.existence) + "\n";
+  if (manifest.scene) text += "  scene: " + fileText(*manifest.scene) + "\n";
+  return text + nodesText("nodes", manifest.nodes) + nodesText("removed", manifest.removed);
+}
+
+}  // namespace hoctomap

@@ -1,0 +1,71 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "MapNames.h"
+
+#include <algorithm>
+#include <system_error>
+
+#include "NumberText.h"
+#include "hoctomap/geometry/Errors.h"
+
+namespace hoctomap {
+namespace {
+
+constexpr std::size_t kDigits = 6;  // larger numbers take more
+constexpr std::string_view kSnapshotBegin = "hierarchy-";
+constexpr std::string_view kSnapshotEnd = ".yaml";
+
+bool isPaddedNumber(std::string_view text) {
+  return text.size() >= kDigits && (text.size() == kDigits || text.front() != '0') && parseCount(text);
+}
+
+}  // namespace
+
+std::string nodeFileStem(NodeId id, std::uint64_t version) {
+  return padded(id.value, kDigits) + "-" + padded(version, kDigits);
+}
+
+bool isNodeFileName(const std::string& name) {
+  const std::string_view text = name;
+  const auto dash = text.find('-');
+  if (dash == std::string_view::npos || !(text.ends_with(".ot") || text.ends_with(".bt"))) return false;
+  return isPaddedNumber(text.substr(0, dash)) &&
+         isPaddedNumber(text.substr(dash + 1, text.size() - dash - 4));
+}
+
+std::string snapshotName(std::uint64_t scan) {
+  return std::string(kSnapshotBegin) + padded(scan, kDigits) + std::string(kSnapshotEnd);
+}
+
+std::optional<std::uint64_t> snapshotScan(const std::string& name) {
+  const std::string_view text = name;
+  if (!text.starts_with(kSnapshotBegin) || !text.ends_with(kSnapshotEnd)) return {};
+  if (text.size() < kSnapshotBegin.size() + kSnapshotEnd.size()) return {};
+  const auto number =
+      text.substr(kSnapshotBegin.size(), text.size() - kSnapshotBegin.size() - kSnapshotEnd.size());
+  return isPaddedNumber(number) ? parseCount(number) : std::nullopt;
+}
+
+std::vector<std::uint64_t> snapshotScans(const std::filesystem::path& directory) {
+  std::vector<std::uint64_t> scans;
+  for (const std::string& name : listDirectory(directory)) {
+    if (const auto scan = snapshotScan(name)) scans.push_back(*scan);
+  }
+  std::sort(scans.begin(), scans.end());
+  return scans;
+}
+
+std::vector<std::string> listDirectory(const std::filesystem::path& directory) {
+  std::vector<std::string> names;
+  try {
+    if (!std::filesystem::exists(directory)) return names;
+    for (const auto& entry : std::filesystem::directory_iterator(directory)) {
+      names.push_back(entry.path().filename().string());
+    }
+  } catch (const std::filesystem::filesystem_error& error) {
+    throw FileError(directory.string() + ": cannot list the directory: " + error.code().message());
+  }
+  std::sort(names.begin(), names.end());
+  return names;
+}
+
+}  // namespace hoctomap

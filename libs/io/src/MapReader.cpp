@@ -1,0 +1,145 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "hoctomap/io/MapReader.h"
+
+#include <algorithm>
+#include <system_error>
+#include <utility>
+
+#include "Disk.h"
+#include "MapNames.h"
+#include "hoctomap/geometry/Errors.h"
+#include "hoctomap/io/OctreeFile.h"
+#include "hoctomap/io/Sha256.h"
+
+namespace hoctomap {
+namespace {
+
+constexpr std::uintmax_t kMaxManifestBytes = 1U << 30U;
+
+Manifest readManifestFile(const std::filesystem::path& file) {
+  std::error_code error;
+  const auto size = std::filesystem::file_size(file, error);
+  if (!error && size > kMaxManifestBytes) throw LimitError(file.string() + ": is larger than 1 GiB");
+  return parseManifest(readWholeFile(file), file.string());
+}
+
+void requireMap(const std::filesystem::path& directory) {
+  if (!std::filesystem::exists(directory))
+    throw MapError(directory.string() + ": there is no such directory");
+  if (std::filesystem::exists(directory / kManifestName)) return;
+  throw MapError(directory.string() + ": is no map directory: it has no " + kManifestName);
+}
+
+/// The bytes of a file of the map, as the manifest vouches for them.
+std::string readChecked(const std::filesystem::path& directory, const FileRecord& record, bool prefix) {
+  const auto file = directory / record.path;
+  if (!std::filesystem::exists(file)) throw MapError(file.string() + ": is missing");
+  std::string bytes = readWholeFile(file);
+  if (prefix && bytes.size() > record.bytes) bytes.resize(static_cast<std::size_t>(record.bytes));
+  if (bytes.size() != record.bytes) {
+    throw MapError(file.string() + ": has " + std::to_string(bytes.size()) + " bytes, the manifest says " +
+                   std::to_string(record.bytes));
+  }
+  if (sha256Hex(bytes) != record.sha256) {
+    throw MapError(file.string() + ": does not have the hash that the manifest says");
+  }
+  return bytes;
+}
+
+NodeMap readNodeMap(const std::filesystem::path& directory, const NodeRecord& node) {
+  const std::string bytes = readChecked(directory, node.ot, false);
+  return {parseOt(bytes, node.resolution, (directory / node.ot.path).string()), node.occupancy};
+}
+
+void setState(MapNode& node, const NodeRecord& record) {
+  node.existence_log_odds = record.existence_log_odds;
+  node.first_scan = record.first_scan;
+  node.last_scan = record.last_scan;
+  node.version = record.version;
+}
+
+MapHierarchy readHierarchy(const std::filesystem::path& directory, const Manifest& manifest) {
+  const NodeRecord& root = manifest.nodes.front();
+  MapHierarchy hierarchy(root.label, readNodeMap(directory, root));
+  setState(hierarchy.root(), root);
+  for (const NodeRecord& record : manifest.nodes) {
+    if (!record.parent) continue;
+    setState(hierarchy.restore(record.id, record.label, readNodeMap(directory, record), record.parent_T_node,
+                               *record.parent),
+             record);
+  }
+  hierarchy.setNextId(manifest.next_id);
+  return hierarchy;
+}
+
+RemovedNode readRemoved(const std::filesystem::path& directory, const NodeRecord& record) {
+  // Only a hierarchy gives a node its transform: hang it into one of its own and take it out again.
+  MapHierarchy scratch(labels::background, NodeMap(record.resolution, record.occupancy));
+  setState(
+      scratch.restore(record.id, record.label, readNodeMap(directory, record), record.parent_T_node, kRootId),
+      record);
+  return {scratch.remove(record.id), record.world_T_node, record.removed_scan.value_or(0)};
+}
+
+}  // namespace
+
+std::vector<FileRecord> Manifest::files() const {
+  std::vector<FileRecord> all{config, events, existence};
+  if (scene) all.push_back(*scene);
+  for (const auto* list : {&nodes, &removed}) {
+    for (const NodeRecord& node : *list) {
+      all.push_back(node.ot);
+      all.push_back(node.bt);
+    }
+  }
+  return all;
+}
+
+const NodeRecord* Manifest::find(NodeId id) const {
+  const auto found =
+      std::find_if(nodes.begin(), nodes.end(), [&](const auto& node) { return node.id == id; });
+  return found == nodes.end() ? nullptr : &*found;
+}
+
+Manifest readManifest(const std::filesystem::path& directory, std::optional<std::uint64_t> at_scan) {
+  requireMap(directory);
+  Manifest current = readManifestFile(directory / kManifestName);
+  if (!at_scan || current.scans <= *at_scan + 1) return current;
+  std::optional<std::uint64_t> newest;
+  for (const std::uint64_t scan : snapshotScans(directory)) {
+    // A snapshot beyond the map itself stems from a commit that never was.
+    if (scan <= *at_scan && scan < current.scans) newest = scan;
+  }
+  if (!newest) {
+    throw MapError(directory.string() + ": no state after scan " + std::to_string(*at_scan) +
+                   " or before was kept (build --snapshot-every)");
+  }
+  return readManifestFile(directory / snapshotName(*newest));
+}
+
+StoredMap readMap(const std::filesystem::path& directory, const MapReadOptions& options) {
+  Manifest manifest = readManifest(directory, options.at_scan);
+  MapHierarchy hierarchy = readHierarchy(directory, manifest);
+  std::vector<RemovedNode> removed;
+  if (options.removed) {
+    for (const NodeRecord& record : manifest.removed) removed.push_back(readRemoved(directory, record));
+  }
+  return {std::move(manifest), std::move(hierarchy), std::move(removed)};
+}
+
+std::vector<Damage> findDamage(const std::filesystem::path& directory, const Manifest& manifest) {
+  std::vector<Damage> damage;
+  for (const FileRecord& file : manifest.files()) {
+    const bool grows = file.path == manifest.events.path || file.path == manifest.existence.path;
+    try {
+      const std::string bytes = readChecked(directory, file, grows);
+      if (file.path.ends_with(".ot")) checkOt(bytes, (directory / file.path).string());
+      if (file.path.ends_with(".bt")) checkBt(bytes, (directory / file.path).string());
+    } catch (const Error& error) {
+      damage.push_back({file.path, error.what()});
+    }
+  }
+  return damage;
+}
+
+}  // namespace hoctomap

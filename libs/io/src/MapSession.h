@@ -1,0 +1,60 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <filesystem>
+#include <optional>
+#include <set>
+#include <string>
+
+#include "CsvTable.h"
+#include "DirectoryLock.h"
+#include "Disk.h"
+#include "NodeFiles.h"
+#include "hoctomap/io/MapDirectory.h"
+
+namespace hoctomap {
+
+/// What stands behind a MapDirectory.
+class MapDirectory::Session {
+ public:
+  Session(std::filesystem::path directory, MapDirectoryOptions options);
+
+  void addRows(const UpdateReport& report);
+  void addRow(const TimingRow& row);
+  void commit(const MapState& state);
+  void writeScene(const SceneMaker& maker);
+
+  [[nodiscard]] const std::optional<Manifest>& committed() const { return committed_; }
+
+ private:
+  // Opening.
+  void requireEmpty() const;
+  void requireNothingForeign() const;
+  void resume();
+  void checkSameConfig(const Manifest& manifest) const;
+  void lookAtOldMap();
+  void removeLeftovers();
+
+  // Committing.
+  void makeWay();
+  [[nodiscard]] Manifest describe(const MapState& state);
+  void commitManifest(const Manifest& manifest, bool keep);
+  void removeUnnamedFiles();
+
+  std::filesystem::path directory_;
+  MapDirectoryOptions options_;
+  Disk disk_;
+  DirectoryLock lock_;
+  NodeFiles node_files_;
+  CsvTable events_;
+  CsvTable existence_;
+  CsvTable timing_;
+  std::optional<Manifest> committed_;
+  bool overwriting_ = false;     ///< until the first commit
+  std::optional<Manifest> old_;  ///< the map that is overwritten, if it is one
+  bool config_written_ = false;
+  std::vector<NodeRecord> removed_before_;  ///< by earlier sessions
+  std::set<std::string> kept_files_;        ///< that kept manifests name
+};
+
+}  // namespace hoctomap

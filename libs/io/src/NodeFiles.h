@@ -1,0 +1,45 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <map>
+#include <utility>
+
+#include "Disk.h"
+#include "hoctomap/hierarchy/MapNode.h"
+#include "hoctomap/io/Manifest.h"
+
+namespace hoctomap {
+
+/// The immutable octree files of a map. What a map looks like is settled by node and version, so each is
+/// written, hashed and counted once.
+class NodeFiles {
+ public:
+  NodeFiles(const Disk& disk, std::filesystem::path directory)
+      : disk_(disk), directory_(std::move(directory)) {}
+
+  /// The files of this record are there already.
+  void know(const NodeRecord& record);
+
+  /// The node as the manifest describes it; writes its files unless they are there.
+  [[nodiscard]] NodeRecord record(const MapNode& node, const Pose& world_T_node);
+
+ private:
+  /// Everything that follows from the octree alone.
+  struct Contents {
+    Eigen::Vector3d box_center = Eigen::Vector3d::Zero();
+    Eigen::Vector3d box_half_extents = Eigen::Vector3d::Zero();
+    VoxelCounts voxels;
+    std::uint64_t memory_bytes = 0;
+    FileRecord ot;
+    FileRecord bt;
+  };
+  [[nodiscard]] Contents write(const MapNode& node) const;
+
+  const Disk& disk_;
+  std::filesystem::path directory_;
+  std::map<std::pair<NodeId, std::uint64_t>, Contents> known_;
+};
+
+}  // namespace hoctomap

@@ -1,0 +1,28 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "hoctomap/hierarchy/MapHierarchy.h"
+
+namespace hoctomap {
+
+struct RenderOptions {
+  unsigned width = 1600;   ///< pixels
+  unsigned height = 1000;  ///< pixels
+  std::string view = "oblique";
+  bool labels = false;  ///< also the boxes of the nodes and their labels
+};
+
+/// What `RenderOptions::view` may be. `oblique`: from above, from the side where least stands in the way.
+[[nodiscard]] const std::vector<std::string>& renderViews();
+
+/// Writes a PNG of a map, nodes coloured by label as in Fig. 3 of the paper; tables and objects fill the
+/// picture. Needs no display (EGL).
+/// @throws ConfigError if the options are wrong; FileError if there is no EGL, or the file cannot be written.
+void renderMap(const MapHierarchy& hierarchy, const RenderOptions& options,
+               const std::filesystem::path& file);
+
+}  // namespace hoctomap

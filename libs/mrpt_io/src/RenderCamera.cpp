@@ -1,0 +1,114 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "RenderCamera.h"
+
+#include <mrpt/core/bits_math.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "hoctomap/geometry/Errors.h"
+#include "hoctomap/mrpt_io/RenderMap.h"
+
+namespace hoctomap {
+namespace {
+
+using mrpt::DEG2RAD;
+
+Eigen::Vector3d direction(double azimuth, double elevation) {
+  const double a = DEG2RAD(azimuth);
+  const double e = DEG2RAD(elevation);
+  return {std::cos(e) * std::cos(a), std::cos(e) * std::sin(a), std::sin(e)};
+}
+
+/// World corners of what should fill the picture.
+std::vector<Eigen::Vector3d> corners(const MapHierarchy& hierarchy) {
+  std::vector<Eigen::Vector3d> points;
+  for (const NodeId id : hierarchy.ids()) {
+    const Obb box = hierarchy.box(id);
+    if (box.box.isEmpty() || (id == kRootId && hierarchy.size() > 1)) continue;
+    for (int i = 0; i < 8; ++i) {
+      points.emplace_back(box.world_T_frame *
+                          box.box.corner(static_cast<Eigen::AlignedBox3d::CornerType>(i)));
+    }
+  }
+  if (points.empty()) points.emplace_back(Eigen::Vector3d::Zero());
+  return points;
+}
+
+/// Distance from which all points are inside the picture.
+double distanceFor(const RenderCamera& camera, const std::vector<Eigen::Vector3d>& points, double aspect) {
+  const Eigen::Vector3d back = direction(camera.azimuth, camera.elevation);
+  const Eigen::Vector3d right = direction(camera.azimuth + 90.0, 0.0);
+  const Eigen::Vector3d up = back.cross(right);
+  const double slope_y = std::tan(0.5 * DEG2RAD(camera.field_of_view));
+  const double slope_x = slope_y * aspect;
+  double distance = 0.2;
+  for (const Eigen::Vector3d& point : points) {
+    const Eigen::Vector3d p = point - camera.target;
+    const double needed = std::max(std::abs(p.dot(right)) / slope_x, std::abs(p.dot(up)) / slope_y);
+    distance = std::max(distance, needed + p.dot(back));
+  }
+  return 1.06 * distance;
+}
+
+/// Background voxels in the cone between the camera and what it looks at.
+std::size_t inTheWay(const MapHierarchy& hierarchy, const RenderCamera& camera, double radius) {
+  const Eigen::Vector3d back = direction(camera.azimuth, camera.elevation);
+  const PointCloud& voxels = hierarchy.root().map().occupiedVoxels();
+  return static_cast<std::size_t>(std::count_if(voxels.begin(), voxels.end(), [&](const auto& voxel) {
+    const Eigen::Vector3d p = voxel.template cast<double>() - camera.target;
+    const double along = p.dot(back);
+    if (along < 0.3 * radius || along > camera.distance) return false;
+    return (p - along * back).norm() < radius * (1.0 - along / camera.distance);
+  }));
+}
+
+struct View {
+  const char* name;
+  double azimuth;
+  double elevation;
+};
+constexpr std::array kViews{View{"front", -90.0, 12.0}, View{"back", 90.0, 12.0}, View{"left", 180.0, 12.0},
+                            View{"right", 0.0, 12.0}, View{"top", -90.0, 89.0}};
+
+}  // namespace
+
+const std::vector<std::string>& renderViews() {
+  static const std::vector<std::string> names = [] {
+    std::vector<std::string> all{"oblique"};
+    for (const View& view : kViews) all.emplace_back(view.name);
+    return all;
+  }();
+  return names;
+}
+
+RenderCamera cameraFor(const MapHierarchy& hierarchy, const std::string& view, double aspect) {
+  const auto points = corners(hierarchy);
+  Eigen::AlignedBox3d bounds;
+  for (const Eigen::Vector3d& point : points) bounds.extend(point);
+  RenderCamera camera;
+  camera.target = bounds.center();
+  for (const View& fixed : kViews) {
+    if (view != fixed.name) continue;
+    camera.azimuth = fixed.azimuth;
+    camera.elevation = fixed.elevation;
+    camera.distance = distanceFor(camera, points, aspect);
+    return camera;
+  }
+  if (view != "oblique") throw ConfigError("there is no view `" + view + "`");
+  const double radius = 0.5 * bounds.diagonal().norm();
+  RenderCamera best;
+  auto least = static_cast<std::size_t>(-1);
+  for (int i = 0; i < 12; ++i) {
+    camera.azimuth = -120.0 + 30.0 * i;
+    camera.elevation = 38.0;
+    camera.distance = distanceFor(camera, points, aspect);
+    const std::size_t blocked = inTheWay(hierarchy, camera, radius);
+    if (blocked < least) best = camera;
+    least = std::min(least, blocked);
+  }
+  return best;
+}
+
+}  // namespace hoctomap

@@ -1,0 +1,47 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+
+namespace hoctomap {
+
+/// Parameters of the segmentation S' (Section IV-A); metres, degrees.
+struct TabletopSegmentationConfig {
+  // Tables
+  double table_height_min = 0.5;   ///< m, z of a table's centre in the world
+  double table_height_max = 1.0;   ///< m
+  double plane_tolerance = 0.004;  ///< m, what a table departs from its plane; the noise is added to it
+  double plane_max_tilt = 5.0;     ///< degrees between a table's normal and gravity
+  double min_table_area = 0.05;    ///< m^2 of cells in which the surface itself is seen
+  double outline_cell = 0.02;      ///< m, cell of a table's outline
+  int ransac_draws = 500;          ///< per plane
+  std::uint64_t seed = 1;          ///< of the draws
+
+  // Objects
+  double cluster_tolerance = 0.01;   ///< m, Euclidean distance that joins two object points
+  double object_height_max = 0.6;    ///< m above the table; what reaches higher is background
+  double object_size_max = 1.0;      ///< m, horizontal extent; what is wider is background
+  double min_object_height = 0.025;  ///< m, lower clusters (paper, cables) are left to the background
+  double min_object_size = 0.02;     ///< m, largest extent of the smallest object
+  int min_cluster_points = 50;       ///< smaller clusters are left to the background
+  double object_noise_max =
+      0.025;                     ///< m; where the noise (three sigma) is larger, objects are not told apart
+  double contact_height = 0.03;  ///< m above the table at which an object must begin
+
+  /// 1/m: the standard deviation of a range r is `range_noise` r^2. 0.0015 is a structured-light camera.
+  double range_noise = 0.0015;
+
+  /// Three standard deviations of the range, in metres.
+  [[nodiscard]] double noise(double range) const { return 3.0 * range_noise * range * range; }
+  /// Distance from its plane up to which a point belongs to a horizontal surface `drop` metres below the
+  /// sensor. The noise is along the beam, so that a surface seen at a grazing angle is sharp in height.
+  [[nodiscard]] double surfaceTolerance(double range, double drop) const {
+    return plane_tolerance + noise(range) * std::min(1.0, std::abs(drop) / std::max(range, 1e-3));
+  }
+  /// Height above the table from which a point at this range is more than paper or a bent table.
+  [[nodiscard]] double flatHeight(double range) const { return min_object_height + noise(range); }
+};
+
+}  // namespace hoctomap

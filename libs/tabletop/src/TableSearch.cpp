@@ -1,0 +1,201 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "hoctomap/tabletop/TableSearch.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "hoctomap/tabletop/EuclideanClusters.h"
+
+namespace hoctomap {
+namespace {
+
+constexpr int kMostPlanes = 24;      // RANSAC rounds of one scan
+constexpr double kGap = 0.08;        // m between parts of one table: seams, sparse rows of far pixels
+constexpr double kHiddenGap = 0.30;  // m between parts of one table behind an object
+constexpr double kSurround = 0.30;   // m around the seen surface that the grid covers
+constexpr double kSameTable = 0.03;  // m between a table's plane and surfels that are its own residue
+constexpr std::size_t kMostCells = 1U << 24U;
+
+using Config = TabletopSegmentationConfig;
+
+Eigen::AlignedBox2d regionAround(std::span<const Eigen::Vector3d> points) {
+  Eigen::AlignedBox2d region;
+  for (const auto& p : points) region.extend(p.head<2>());
+  return {region.min().array() - kSurround, region.max().array() + kSurround};
+}
+
+Eigen::AlignedBox2d regionAround(const SurfaceGrid& grid, const CellMask& mask) {
+  Eigen::AlignedBox2d region;
+  for (std::size_t i = 0; i < mask.size(); ++i) {
+    if (mask[i]) region.extend(grid.center(i));
+  }
+  return {region.min().array() - kSurround, region.max().array() + kSurround};
+}
+
+bool fits(const Eigen::AlignedBox2d& region, const Config& config) {
+  return region.volume() / (config.outline_cell * config.outline_cell) < static_cast<double>(kMostCells);
+}
+
+/// Whether the patch is a surface and not a strip: what the noise of a wall leaves in a plane is thin.
+bool isBroad(const SurfaceGrid& grid, const CellMask& patch) {
+  constexpr double kLeastBreadth = 0.05;  // m
+  const CellMask closed = grid.extent(patch);
+  CellMask gone(patch.size());
+  for (std::size_t i = 0; i < patch.size(); ++i) gone[i] = closed[i] ? 0 : 1;
+  gone = grid.dilated(gone, kLeastBreadth / 2.0);
+  std::size_t core = 0;
+  for (const auto cell : gone) core += cell == 0;
+  return core * 10 > count(patch);
+}
+
+/// Points of the patch: on the plane and over its cells or their neighbours, which hold the feet of objects.
+PointIndices pointsOf(const Measurement& z, const Plane& plane, const SurfaceGrid& grid,
+                      const CellMask& patch, const Config& config) {
+  PointIndices points;
+  const CellMask over = grid.dilated(patch, grid.cellSize());
+  const Eigen::Vector3d origin = z.origin();
+  for (std::uint32_t i = 0; i < z.world_points.size(); ++i) {
+    const Eigen::Vector3d p = z.world_points[i].cast<double>();
+    const auto cell = grid.cellOf(p.x(), p.y());
+    if (cell >= over.size() || !over[cell]) continue;
+    const double tolerance = config.surfaceTolerance((p - origin).norm(), origin.z() - p.z());
+    if (plane.absDistance(p) <= tolerance) points.push_back(i);
+  }
+  return points;
+}
+
+/// The plane of a patch alone: two tables of one height need not have one tilt.
+std::optional<Plane> refit(const Measurement& z, const PointIndices& points, const Config& config) {
+  constexpr std::size_t kSample = 5000;
+  const std::size_t step = std::max<std::size_t>(1, points.size() / kSample);
+  std::vector<Eigen::Vector3d> sample;
+  for (std::size_t i = 0; i < points.size(); i += step) {
+    sample.push_back(z.world_points[points[i]].cast<double>());
+  }
+  return regressionPlane(sample, config);
+}
+
+double meanHeight(const SurfaceGrid& grid, const CellMask& patch, const Plane& plane) {
+  double sum = 0.0;
+  for (std::size_t i = 0; i < patch.size(); ++i) {
+    if (!patch[i]) continue;
+    const Eigen::Vector2d at = grid.center(i);
+    sum -= (plane.normal().head<2>().dot(at) + plane.offset()) / plane.normal().z();
+  }
+  return sum / static_cast<double>(count(patch));
+}
+
+/// One patch of a plane found by RANSAC, made precise; nothing if it is no table.
+std::optional<TableSurface> tableOf(const Measurement& z, const Plane& rough, const SurfaceGrid& rough_grid,
+                                    const CellMask& rough_patch, const Config& config) {
+  const auto plane = refit(z, pointsOf(z, rough, rough_grid, rough_patch, config), config);
+  if (!plane || plane->signedDistance(z.origin()) <= kSameTable) return std::nullopt;
+  SurfaceGrid grid(z, *plane, regionAround(rough_grid, rough_patch), config);
+  const double cell_area = grid.cellSize() * grid.cellSize();
+  auto patches = grid.patches(kGap, kHiddenGap, static_cast<std::size_t>(config.min_table_area / cell_area));
+  if (patches.empty() || !isBroad(grid, patches.front())) return std::nullopt;
+  CellMask patch = std::move(patches.front());
+  const double height = meanHeight(grid, patch, *plane);
+  if (height < config.table_height_min || height > config.table_height_max) return std::nullopt;
+  CellMask extent = grid.extent(patch);
+  auto points = pointsOf(z, *plane, grid, patch, config);
+  return TableSurface{*plane, std::move(grid), std::move(patch), std::move(extent), std::move(points)};
+}
+
+std::vector<TableSurface> tablesOf(const Measurement& z, const Plane& plane,
+                                   std::span<const Eigen::Vector3d> inliers, const Config& config) {
+  std::vector<TableSurface> tables;
+  const auto region = regionAround(inliers);
+  if (!fits(region, config)) return tables;
+  const SurfaceGrid grid(z, plane, region, config);
+  const double cell_area = grid.cellSize() * grid.cellSize();
+  // The plane is rough yet: half of the area will do.
+  const auto least = static_cast<std::size_t>(config.min_table_area / cell_area / 2.0);
+  for (const auto& patch : grid.patches(kGap, kHiddenGap, least)) {
+    if (auto table = tableOf(z, plane, grid, patch, config)) tables.push_back(std::move(*table));
+  }
+  return tables;
+}
+
+/// Whether `upper` lies for the most part over `lower`, less than an object's height above: the top of a box,
+/// a pile of books, or what noise left of the lower one itself.
+bool standsOn(const TableSurface& upper, const TableSurface& lower, const Config& config) {
+  std::size_t over = 0;
+  for (std::size_t i = 0; i < upper.patch.size(); ++i) {
+    if (!upper.patch[i]) continue;
+    const Eigen::Vector2d at = upper.grid.center(i);
+    const auto cell = lower.grid.cellOf(at.x(), at.y());
+    if (cell >= lower.grid.size() || !lower.extent[cell]) continue;
+    const double z =
+        -(upper.plane.normal().head<2>().dot(at) + upper.plane.offset()) / upper.plane.normal().z();
+    const double height = lower.plane.signedDistance({at.x(), at.y(), z});
+    over += height > -kSameTable && height < config.object_height_max;
+  }
+  return 2 * over > count(upper.patch);
+}
+
+/// Leaves only tables that stand on their own, largest first.
+void keepTables(std::vector<TableSurface>& tables, const Config& config) {
+  std::stable_sort(tables.begin(), tables.end(),
+                   [](const auto& a, const auto& b) { return count(a.patch) > count(b.patch); });
+  std::vector<TableSurface> kept;
+  for (auto& table : tables) {
+    const bool top = std::any_of(kept.begin(), kept.end(),
+                                 [&](const auto& lower) { return standsOn(table, lower, config); });
+    if (!top) kept.push_back(std::move(table));
+  }
+  tables = std::move(kept);
+}
+
+/// Takes the surfels of a plane out of the search: of a table also those just above and below.
+void removeExplained(std::vector<Surfel>& surfels, const Plane& plane,
+                     const std::vector<TableSurface>& tables) {
+  const auto explained = [&](const Surfel& s) {
+    if (plane.absDistance(s.centroid) < s.tolerance) return true;
+    return std::any_of(tables.begin(), tables.end(), [&](const TableSurface& t) {
+      const auto cell = t.grid.cellOf(s.centroid.x(), s.centroid.y());
+      return cell < t.grid.size() && t.extent[cell] && t.plane.absDistance(s.centroid) < kSameTable;
+    });
+  };
+  std::erase_if(surfels, explained);
+}
+
+/// Parts of a plane that lie apart, as indices into `inliers`.
+std::vector<PointIndices> partsOf(std::span<const Eigen::Vector3d> inliers) {
+  PointCloud flat;
+  for (const auto& p : inliers) flat.emplace_back(static_cast<float>(p.x()), static_cast<float>(p.y()), 0.0F);
+  return euclideanClusters(flat, kHiddenGap + Surfel::kSize);
+}
+
+}  // namespace
+
+std::vector<TableSurface> findTables(const Measurement& z, const TabletopSegmentationConfig& config) {
+  std::mt19937_64 rng(config.seed);
+  std::vector<TableSurface> tables;
+  auto surfels = horizontalSurfels(z, config);
+  for (int round = 0; round < kMostPlanes; ++round) {
+    const auto plane = dominantPlane(surfels, config, rng);
+    if (!plane) break;
+    std::vector<Eigen::Vector3d> inliers;
+    for (const auto& s : surfels) {
+      if (plane->absDistance(s.centroid) < s.tolerance) inliers.push_back(s.centroid);
+    }
+    // A surfel covers its voxel at most, so a table needs at least this many.
+    const double least = config.min_table_area / (Surfel::kSize * Surfel::kSize) / 2.0;
+    if (static_cast<double>(inliers.size()) < least) break;
+    for (const auto& part : partsOf(inliers)) {
+      if (static_cast<double>(part.size()) < least) continue;
+      std::vector<Eigen::Vector3d> centroids;
+      for (const auto i : part) centroids.push_back(inliers[i]);
+      const auto fitted = regressionPlane(centroids, config);
+      for (auto& table : tablesOf(z, fitted ? *fitted : *plane, centroids, config)) {
+        tables.push_back(std::move(table));
+      }
+    }
+    removeExplained(surfels, *plane, tables);
+  }
+  keepTables(tables, config);
+  return tables;
+}
+
+}  // namespace hoctomap

@@ -1,0 +1,296 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Committed is committed: whatever step fails and whenever the process dies, the directory holds a whole map.
+#include <gtest/gtest.h>
+#include <sys/resource.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <csignal>
+#include <functional>
+
+#include "hoctomap/geometry/Errors.h"
+#include "hoctomap/io/MapDirectory.h"
+#include "hoctomap/io/MapReader.h"
+#include "random_map.h"
+
+namespace hoctomap {
+namespace {
+
+using test::contents;
+using test::mapOptions;
+using test::TemporaryFolder;
+
+/// A run of three commits that changes, adds and removes nodes; the same every time.
+class BuildRun {
+ public:
+  explicit BuildRun(std::uint64_t seed) : rng_(seed), hierarchy_(test::randomHierarchy(rng_, 2)) {}
+
+  void commit(MapDirectory& writer) {
+    const std::uint64_t scan = scans_++;
+    if (scan > 0) {
+      test::changeNode(rng_, hierarchy_, NodeId{2}, 10 * scan);
+      hierarchy_.add(labels::object, test::randomNodeMap(rng_, 0.002), test::randomPose(rng_, 1.0), kRootId);
+    }
+    if (scan == 2) {
+      const Pose pose = hierarchy_.world_T_node(NodeId{1});
+      removed_.push_back({hierarchy_.remove(NodeId{1}), pose, scan});
+    }
+    writer.append(test::reportOf(hierarchy_, NodeId{2}, scan));
+    writer.append(TimingRow{scan, 1000, 0.5, {}, 0.25});
+    writer.commit({hierarchy_, removed_, scans_, "log", scan == 1});
+  }
+  static void scene(MapDirectory& writer) {
+    writer.writeScene([](const auto&, const auto& file) { test::writeText(file, "a scene"); });
+  }
+  void all(MapDirectory& writer) {
+    for (int i = 0; i < 3; ++i) commit(writer);
+    scene(writer);
+  }
+
+ private:
+  test::Rng rng_;
+  MapHierarchy hierarchy_;
+  std::vector<RemovedNode> removed_;
+  std::uint64_t scans_ = 0;
+};
+
+void expectWhole(const std::filesystem::path& map, const std::string& when) {
+  const StoredMap stored = readMap(map);
+  for (const Damage& damage : findDamage(map, stored.manifest)) ADD_FAILURE() << when << ": " << damage.what;
+}
+
+class MapCommit : public ::testing::Test {
+ protected:
+  [[nodiscard]] std::filesystem::path map(const std::string& name = "map") const {
+    return folder_.path() / name;
+  }
+  /// The map an undisturbed run leaves.
+  std::map<std::string, std::string> undisturbed(std::uint64_t seed) {
+    const std::string name = "undisturbed" + std::to_string(seed);
+    if (!std::filesystem::exists(map(name))) {
+      MapDirectory writer(map(name), mapOptions(MapOpenMode::create));
+      BuildRun(seed).all(writer);
+    }
+    return contents(map(name));
+  }
+
+  TemporaryFolder folder_;
+};
+
+TEST_F(MapCommit, SameRunSameBytes) {
+  MapDirectory writer(map(), mapOptions(MapOpenMode::create));
+  BuildRun(1).all(writer);
+  auto files = contents(map());
+  files.erase(".lock");
+  EXPECT_EQ(files, undisturbed(1));
+  EXPECT_EQ(files.at("events.csv").substr(0, 50), "scan,time,event,node,label,existence,detail\n0,1290");
+  EXPECT_NE(files.at("events.csv").find(",\"a \"\"detail\"\", quoted\"\n"), std::string::npos);
+  EXPECT_TRUE(files.contains("hierarchy-000001.yaml"));
+}
+
+TEST_F(MapCommit, OldVersionsGoUnlessKept) {
+  undisturbed(1);
+  const auto directory = map("undisturbed1");
+  EXPECT_FALSE(std::filesystem::exists(directory / "nodes/000002-000003.ot"));  // of commit 0
+  EXPECT_TRUE(std::filesystem::exists(directory / "nodes/000002-000010.ot"));   // kept with commit 1
+  EXPECT_TRUE(std::filesystem::exists(directory / "nodes/000002-000020.ot"));
+  EXPECT_EQ(readManifest(directory, 1).scans, 2U);
+  EXPECT_EQ(readMap(directory, {1, false}).hierarchy.node(NodeId{2}).version, 10U);
+  EXPECT_TRUE(findDamage(directory, readManifest(directory, 1)).empty());
+  EXPECT_EQ(readManifest(directory, 2).scans, 3U);
+  EXPECT_THROW(static_cast<void>(readManifest(directory, 0)), MapError);
+}
+
+TEST_F(MapCommit, ForeignFilesAreLeftAlone) {
+  MapDirectory writer(map(), mapOptions(MapOpenMode::create));
+  BuildRun run(1);
+  run.commit(writer);
+  for (const char* name : {"notes.txt", "nodes/mine.ot", "nodes/1-2.ot", "nodes/000001-000002.ot.bak"}) {
+    test::writeText(map() / name, "mine");
+  }
+  test::writeText(map() / "nodes/000077-000077.ot", "left behind by a killed run");
+  run.commit(writer);
+  for (const char* name : {"notes.txt", "nodes/mine.ot", "nodes/1-2.ot", "nodes/000001-000002.ot.bak"}) {
+    EXPECT_EQ(test::readText(map() / name), "mine");
+  }
+  EXPECT_FALSE(std::filesystem::exists(map() / "nodes/000077-000077.ot"));
+}
+
+/// Lets step `n` of a session fail; true if there was one.
+bool failAt(int n, const std::filesystem::path& directory, MapOpenMode mode,
+            const std::function<void(MapDirectory&)>& session, const std::function<void()>& failure) {
+  int steps = 0;
+  MapDirectoryOptions options = mapOptions(mode);
+  options.before_step = [&](std::string_view, const std::filesystem::path&) {
+    if (steps++ == n) failure();
+  };
+  MapDirectory writer(directory, options);
+  session(writer);
+  return steps > n;
+}
+
+TEST_F(MapCommit, EveryFailedStepLeavesAWholeMap) {
+  int failures = 0;
+  for (bool more = true; more; ++failures) {
+    const auto directory = map("failed" + std::to_string(failures));
+    const auto session = [](MapDirectory& writer) { BuildRun(3).all(writer); };
+    try {
+      more =
+          failAt(failures, directory, MapOpenMode::create, session, [] { throw FileError("no space left"); });
+    } catch (const FileError&) {
+      if (std::filesystem::exists(directory / "hierarchy.yaml")) {
+        expectWhole(directory, "after failure " + std::to_string(failures));
+      }
+    }
+  }
+  EXPECT_GT(failures, 30);
+}
+
+TEST_F(MapCommit, ASessionGoesOnAfterAFailedCommit) {
+  for (int n = 0; n < 200; ++n) {
+    const auto directory = map("again" + std::to_string(n));
+    int steps = 0;
+    MapDirectoryOptions options = mapOptions(MapOpenMode::create);
+    options.before_step = [&](std::string_view, const std::filesystem::path&) {
+      if (steps++ == n) throw FileError("no space left");
+    };
+    test::Rng rng(4);
+    const MapHierarchy hierarchy = test::randomHierarchy(rng, 1);
+    {
+      MapDirectory writer(directory, options);
+      for (std::uint64_t scan = 0; scan < 3; ++scan) {
+        writer.append(test::reportOf(hierarchy, kRootId, scan));
+        try {
+          writer.commit({hierarchy, {}, scan + 1});
+        } catch (const FileError&) {
+          writer.commit({hierarchy, {}, scan + 1});
+        }
+      }
+    }
+    expectWhole(directory, "after step " + std::to_string(n));
+    const std::string events = test::readText(directory / "events.csv");
+    EXPECT_EQ(std::count(events.begin(), events.end(), '\n'), 4);
+    if (steps <= n) break;
+    ASSERT_LT(n, 199);
+  }
+}
+
+TEST_F(MapCommit, KilledAtAnyStepThenContinuedGivesTheSameBytes) {
+  const auto expected = undisturbed(5);
+  int kills = 0;
+  for (bool more = true; more; kills += 3) {
+    const auto directory = map("killed" + std::to_string(kills));
+    const pid_t child = ::fork();
+    if (child == 0) {
+      const bool reached = failAt(
+          kills, directory, MapOpenMode::create, [](MapDirectory& writer) { BuildRun(5).all(writer); },
+          [] { ::raise(SIGKILL); });
+      ::_exit(reached ? 1 : 0);
+    }
+    int status = 0;
+    ASSERT_EQ(::waitpid(child, &status, 0), child);
+    more = WIFSIGNALED(status);
+    if (std::filesystem::exists(directory / "hierarchy.yaml")) {
+      expectWhole(directory, "killed at step " + std::to_string(kills));
+    }
+    {
+      MapDirectory writer(directory, mapOptions(MapOpenMode::resume));
+      const std::uint64_t done = writer.committed() ? writer.committed()->scans : 0;
+      const TemporaryFolder scratch;
+      BuildRun run(5);
+      {  // brings the run to where the map stands
+        MapDirectory elsewhere(scratch.path() / "map", mapOptions(MapOpenMode::create));
+        for (std::uint64_t i = 0; i < done; ++i) run.commit(elsewhere);
+      }
+      for (std::uint64_t i = done; i < 3; ++i) run.commit(writer);
+      BuildRun::scene(writer);
+    }
+    ASSERT_EQ(contents(directory), expected) << "killed at step " << kills;
+  }
+  EXPECT_GT(kills, 30);
+}
+
+TEST_F(MapCommit, OverwritingKeepsTheOldMapUntilTheNewOneIsThere) {
+  undisturbed(6);
+  const auto expected = undisturbed(7);
+  int kills = 0;
+  for (bool more = true; more; kills += 5) {
+    const auto directory = map("over" + std::to_string(kills));
+    std::filesystem::copy(map("undisturbed6"), directory, std::filesystem::copy_options::recursive);
+    const pid_t child = ::fork();
+    if (child == 0) {
+      const bool reached = failAt(
+          kills, directory, MapOpenMode::overwrite, [](MapDirectory& writer) { BuildRun(7).all(writer); },
+          [] { ::raise(SIGKILL); });
+      ::_exit(reached ? 1 : 0);
+    }
+    int status = 0;
+    ASSERT_EQ(::waitpid(child, &status, 0), child);
+    more = WIFSIGNALED(status);
+    expectWhole(directory, "killed at step " + std::to_string(kills));
+    if (kills % 2 == 0) {  // the old or the new map can be continued
+      const MapDirectory writer(directory, mapOptions(MapOpenMode::resume));
+      EXPECT_FALSE(std::filesystem::exists(directory / "previous"));
+    }
+    expectWhole(directory, "continued after step " + std::to_string(kills));
+    MapDirectory writer(directory, mapOptions(MapOpenMode::overwrite));
+    BuildRun(7).all(writer);
+    auto files = contents(directory);
+    files.erase(".lock");
+    ASSERT_EQ(files, expected) << "killed at step " << kills;
+  }
+  EXPECT_GT(kills, 40);
+}
+
+TEST_F(MapCommit, OverwritingADamagedMap) {
+  undisturbed(6);
+  const auto directory = map("undisturbed6");
+  test::writeText(directory / "hierarchy.yaml", "[1, 2");
+  EXPECT_THROW(MapDirectory(directory, mapOptions(MapOpenMode::resume)), MapError);
+  {
+    MapDirectory writer(directory, mapOptions(MapOpenMode::overwrite));
+    BuildRun(7).all(writer);
+  }
+  EXPECT_EQ(contents(directory), undisturbed(7));
+}
+
+TEST_F(MapCommit, ShortWritesAreNoticed) {
+  undisturbed(8);
+  const auto directory = map("undisturbed8");
+  const auto before = contents(directory);
+  const pid_t child = ::fork();
+  if (child == 0) {
+    ::signal(SIGXFSZ, SIG_IGN);
+    const rlimit limit{2000, 2000};
+    ::setrlimit(RLIMIT_FSIZE, &limit);
+    try {
+      MapDirectory writer(directory, mapOptions(MapOpenMode::overwrite));
+      BuildRun(9).all(writer);
+    } catch (const FileError&) {
+      ::_exit(5);
+    }
+    ::_exit(0);
+  }
+  int status = 0;
+  ASSERT_EQ(::waitpid(child, &status, 0), child);
+  ASSERT_TRUE(WIFEXITED(status));
+  EXPECT_EQ(WEXITSTATUS(status), 5);
+  expectWhole(directory, "after the short write");
+  { const MapDirectory writer(directory, mapOptions(MapOpenMode::resume)); }
+  auto after = contents(directory);
+  EXPECT_EQ(after.at("hierarchy.yaml"), before.at("hierarchy.yaml"));
+}
+
+TEST_F(MapCommit, DamagedEventsAreNoticedWhenContinuing) {
+  undisturbed(6);
+  const auto events = map("undisturbed6") / "events.csv";
+  const std::string text = test::readText(events);
+  test::writeText(events, text + "a row that no commit knows\n");
+  expectWhole(map("undisturbed6"), "with a tail");
+  test::writeText(events, text.substr(0, text.size() - 1));
+  EXPECT_THROW(MapDirectory(map("undisturbed6"), mapOptions(MapOpenMode::resume)), MapError);
+}
+
+}  // namespace
+}  // namespace hoctomap

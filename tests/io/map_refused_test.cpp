@@ -1,0 +1,198 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Damaged and hostile maps: one MapError that names the file, never a crash.
+#include <gtest/gtest.h>
+
+#include <cstring>
+#include <functional>
+#include <limits>
+
+#include "hoctomap/geometry/Errors.h"
+#include "hoctomap/io/MapDirectory.h"
+#include "hoctomap/io/MapReader.h"
+#include "hoctomap/io/OctreeFile.h"
+#include "hoctomap/io/Sha256.h"
+#include "random_map.h"
+
+namespace hoctomap {
+namespace {
+
+class MapRefused : public ::testing::Test {
+ protected:
+  MapRefused() {
+    MapDirectory writer(map(), test::mapOptions(MapOpenMode::create));
+    writer.commit({test::randomHierarchy(rng_, 3), {}, 5});
+    manifest_ = readManifest(map());
+  }
+  [[nodiscard]] std::filesystem::path map() const { return folder_.path() / "map"; }
+
+  [[nodiscard]] std::string yamlWith(const std::function<void(Manifest&)>& change) const {
+    Manifest changed = manifest_;
+    change(changed);
+    return toYaml(changed);
+  }
+  static std::string messageOf(const std::function<void()>& call) {
+    try {
+      call();
+    } catch (const MapError& error) {
+      return error.what();
+    }
+    return "no MapError";
+  }
+  /// The manifest is refused, and the message holds file and word.
+  static void expectRefused(const std::string& yaml, const std::string& word) {
+    const std::string message = messageOf([&] { static_cast<void>(parseManifest(yaml, "m.yaml")); });
+    EXPECT_TRUE(message.starts_with("m.yaml: ") || message.starts_with("m.yaml (")) << message;
+    EXPECT_NE(message.find(word), std::string::npos) << message << "\nshould hold: " << word;
+  }
+  [[nodiscard]] std::string replaced(const std::string& from, const std::string& to) const {
+    std::string yaml = toYaml(manifest_);
+    const auto at = yaml.find(from);
+    EXPECT_NE(at, std::string::npos) << from;
+    return at == std::string::npos ? yaml : yaml.replace(at, from.size(), to);
+  }
+  /// Puts other bytes into node 1's file, with a manifest that vouches for them.
+  void forgeOt(const std::string& bytes) {
+    NodeRecord& node = manifest_.nodes.at(1);
+    test::writeText(map() / node.ot.path, bytes);
+    node.ot = {node.ot.path, bytes.size(), sha256Hex(bytes)};
+    test::writeText(map() / "hierarchy.yaml", toYaml(manifest_));
+  }
+  void expectMapRefused(const std::string& file, const std::string& word) const {
+    const std::string message = messageOf([&] { static_cast<void>(readMap(map())); });
+    EXPECT_NE(message.find(file), std::string::npos) << message;
+    EXPECT_NE(message.find(word), std::string::npos) << message;
+    const auto damage = findDamage(map(), manifest_);
+    ASSERT_EQ(damage.size(), 1U);
+    EXPECT_EQ(damage.front().path, file);
+  }
+
+  test::Rng rng_{5};
+  test::TemporaryFolder folder_;
+  Manifest manifest_;
+};
+
+TEST_F(MapRefused, NoMap) {
+  EXPECT_THROW(static_cast<void>(readManifest(folder_.path() / "nowhere")), MapError);
+  EXPECT_THROW(static_cast<void>(readManifest(folder_.path())), MapError);
+}
+
+TEST_F(MapRefused, Trees) {
+  const NodeId second = manifest_.nodes.at(2).id;
+  expectRefused(yamlWith([](Manifest& m) { m.nodes.at(2).parent.reset(); }), "two roots");
+  expectRefused(yamlWith([](Manifest& m) { m.nodes.at(0).parent = NodeId{1}; }), "no root");
+  expectRefused(yamlWith([](Manifest& m) { m.nodes.clear(); }), "no root");
+  expectRefused(yamlWith([](Manifest& m) { m.nodes.at(2).parent = NodeId{3000}; }), "no node 3000");
+  expectRefused(yamlWith([](Manifest& m) { m.nodes.at(2).id = m.nodes.at(1).id; }), "twice");
+  expectRefused(yamlWith([](Manifest& m) {
+                  m.removed.push_back(m.nodes.at(2));
+                  m.removed[0].removed_scan = 1;
+                }),
+                "twice");
+  expectRefused(yamlWith([](Manifest& m) { m.nodes.at(0).children.clear(); }), "children");
+  expectRefused(yamlWith([&](Manifest& m) { m.next_id = second; }), "next_id");
+  expectRefused(yamlWith([](Manifest& m) {  // two nodes that are each other's parents
+                  const NodeId a = m.nodes.at(1).id;
+                  const NodeId b = m.nodes.at(2).id;
+                  for (NodeRecord& node : m.nodes) {
+                    std::erase(node.children, a);
+                    std::erase(node.children, b);
+                  }
+                  m.nodes.at(1).parent = b;
+                  m.nodes.at(2).parent = a;
+                  m.nodes.at(1).children = {b};
+                  m.nodes.at(2).children = {a};
+                  m.nodes.resize(3);
+                  m.nodes.at(0).children.clear();
+                }),
+                "cycle");
+}
+
+TEST_F(MapRefused, Values) {
+  for (const double existence : {0.0, 1.0, -0.1, 1.5}) {
+    expectRefused(yamlWith([&](Manifest& m) { m.nodes.at(1).existence = existence; }), "existence");
+  }
+  expectRefused(
+      yamlWith([](Manifest& m) { m.nodes.at(1).existence = std::numeric_limits<double>::quiet_NaN(); }),
+      "existence");
+  expectRefused(yamlWith([](Manifest& m) { m.nodes.at(1).existence_log_odds = 3.5; }), "existence_log_odds");
+  for (const double resolution : {0.0, -0.1, std::numeric_limits<double>::infinity()}) {
+    expectRefused(yamlWith([&](Manifest& m) { m.nodes.at(1).resolution = resolution; }), "resolution");
+  }
+  expectRefused(yamlWith([](Manifest& m) { m.nodes.at(1).occupancy.prob_hit = 1.0; }), "prob_hit");
+  expectRefused(yamlWith([](Manifest& m) { m.nodes.at(1).occupancy.clamping_min = 0.99; }), "clamping_min");
+  expectRefused(yamlWith([](Manifest& m) { m.nodes.at(1).ot.sha256 = "00"; }), "sha256");
+  for (const char* path : {"../secret", "/etc/passwd", "nodes/../../x", "", "a\nb"}) {
+    expectRefused(yamlWith([&](Manifest& m) { m.nodes.at(1).ot.path = path; }), "out of the map directory");
+  }
+  expectRefused(yamlWith([](Manifest& m) { m.nodes.at(1).world_T_node.x(77.0); }), "world_pose");
+}
+
+TEST_F(MapRefused, Texts) {
+  expectRefused(replaced("format_version: 1", "format_version: 2"), "newer");
+  expectRefused(replaced("format_version: 1", "format_version: one"), "format_version");
+  expectRefused(replaced("scans: 5", "scans: 5junk"), "scans");
+  expectRefused(replaced("scans: 5", "scans: -5"), "scans");
+  expectRefused(replaced("  - id: 1\n", "  - id: 99999999999\n"), "id");
+  expectRefused(replaced("    resolution: ", "    rezolution: "), "resolution");
+  expectRefused(replaced("pose_matrix: [1.0, ", "pose_matrix: [2.0, "), "pose_matrix");
+  expectRefused(replaced("pose_matrix: [1.0, ", "pose_matrix: ["), "pose_matrix");
+  expectRefused(replaced("    pose: \"[0.0 ", "    pose: \"[5.0 "), "pose");
+  expectRefused(replaced("    pose: \"[0.0 ", "    pose: \"[0,0 "), "pose");
+  expectRefused("", "mapping");
+  expectRefused("just a text", "");
+  expectRefused("[1, 2", "line");
+  expectRefused("a: *nobody", "line");
+  expectRefused(std::string(100'000, '['), "line");
+  expectRefused(std::string("\0\xff\xfe\x01", 4), "");
+}
+
+TEST_F(MapRefused, EveryCutOfTheManifest) {
+  const std::string yaml = toYaml(manifest_);
+  const auto end = yaml.find("removed:");
+  for (std::size_t size = 0; size < end; size += 37) {
+    EXPECT_THROW(static_cast<void>(parseManifest(yaml.substr(0, size), "m.yaml")), MapError) << size;
+  }
+}
+
+TEST_F(MapRefused, TooDeepIsALimit) {
+  MapHierarchy chain(labels::background, NodeMap(0.1, {}));
+  for (std::uint32_t i = 0; i < 65; ++i) chain.add(labels::object, NodeMap(0.1, {}), Pose(), NodeId{i});
+  const auto directory = folder_.path() / "deep";
+  MapDirectory writer(directory, test::mapOptions(MapOpenMode::create));
+  writer.commit({chain, {}, 1});
+  EXPECT_THROW(static_cast<void>(readManifest(directory)), LimitError);
+}
+
+TEST_F(MapRefused, NodeFiles) {
+  const std::string path = manifest_.nodes.at(1).ot.path;
+  const std::string good = test::readText(map() / path);
+  test::writeText(map() / path, good.substr(0, good.size() / 2));
+  expectMapRefused(path, "bytes");
+  std::string flipped = good;
+  flipped[good.size() / 2] = static_cast<char>(flipped[good.size() / 2] ^ 1);
+  test::writeText(map() / path, flipped);
+  expectMapRefused(path, "hash");
+  std::filesystem::remove(map() / path);
+  expectMapRefused(path, "missing");
+}
+
+TEST_F(MapRefused, ForgedNodeFiles) {
+  const std::string path = manifest_.nodes.at(1).ot.path;
+  const std::string good = test::readText(map() / path);
+  forgeOt(good.substr(0, good.size() - 1));
+  expectMapRefused(path, "cut");
+
+  std::string nan = good;
+  const float value = std::numeric_limits<float>::quiet_NaN();
+  std::memcpy(nan.data() + nan.find("data\n") + 5, &value, sizeof value);
+  forgeOt(nan);
+  expectMapRefused(path, "log-odds");
+
+  std::string bomb = "# Octomap OcTree file\nid OcTree\nsize 50000\nres 0.01\ndata\n";
+  for (int i = 0; i < 50'000; ++i) bomb += std::string("\0\0\0\0\x01", 5);
+  forgeOt(bomb);
+  expectMapRefused(path, "deeper than 16");
+}
+
+}  // namespace
+}  // namespace hoctomap

@@ -1,0 +1,106 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include <gtest/gtest.h>
+
+#include "BoxScene.h"
+#include "hoctomap/hierarchy/MapHierarchy.h"
+#include "hoctomap/tabletop/Tabletop.h"
+
+namespace hoctomap {
+namespace {
+
+using test::filledMap;
+
+TEST(TabletopLabeling, FollowsTheStructure) {  // Eq. (10)
+  const auto labeling = makeTabletopLabeling();
+  const Measurement z;
+  EXPECT_EQ(labeling->label(z, {Structure::plane, {}, {}}), labels::table);
+  EXPECT_EQ(labeling->label(z, {Structure::cluster, {}, {}}), labels::object);
+  EXPECT_EQ(labeling->label(z, {Structure::remainder, {}, {}}), labels::background);
+}
+
+TEST(TabletopRelation, IsThatOfEquation11) {
+  const auto relation = makeTabletopRelation();
+  const std::vector<Label> all{labels::background, labels::table, labels::object, Label{"mug"}};
+  for (const auto& i : all) {
+    for (const auto& j : all) {
+      const bool expected = (i == labels::table && j == labels::object) ||
+                            (i == labels::background && j == labels::table) ||
+                            (i == labels::background && j == labels::object);
+      EXPECT_EQ(relation->holds({i, {}, nullptr}, {j, {}, nullptr}), expected) << i.name << " " << j.name;
+    }
+  }
+}
+
+/// A hierarchy with tables, and the parent of an object in it.
+class TableChoice : public ::testing::Test {
+ protected:
+  NodeId addTable(double x_min, double x_max, double height, double yaw = 0.0) {
+    const Eigen::Vector3d half((x_max - x_min) / 2.0, 0.4, 0.01);
+    const Pose world_T_node((x_min + x_max) / 2.0, 0.0, height, yaw, 0.0, 0.0);
+    return hierarchy_.add(labels::table, filledMap(0.02, {-half, half}), world_T_node, kRootId);
+  }
+
+  NodeId parentOf(double x, double y, double bottom, double size = 0.1) {
+    const Eigen::Vector3d center(x, y, bottom + size / 2.0);
+    const Eigen::Vector3d half = Eigen::Vector3d::Constant(size / 2.0);
+    const Obb box{Eigen::Isometry3d(Eigen::Translation3d(center)), {-half, half}};
+    return makeTabletopRelations().deepestAncestor(hierarchy_, {labels::object, box, nullptr});
+  }
+
+  MapHierarchy hierarchy_{labels::background, NodeMap(0.05, OccupancyModel{})};
+};
+
+TEST_F(TableChoice, WithoutTablesIsTheBackground) {
+  EXPECT_EQ(parentOf(0.0, 0.0, 0.75), kRootId);
+}
+
+TEST_F(TableChoice, IsTheTableUnderTheObject) {
+  const NodeId left = addTable(-1.5, -0.5, 0.75);
+  const NodeId right = addTable(0.5, 1.5, 0.75);
+  EXPECT_EQ(parentOf(-1.0, 0.1, 0.76), left);
+  EXPECT_EQ(parentOf(1.0, 0.1, 0.76), right);
+  EXPECT_EQ(parentOf(1.45, 0.39, 0.76), right);
+}
+
+TEST_F(TableChoice, WorksInTheFrameOfTheNode) {
+  const NodeId turned = addTable(-1.2, -0.2, 0.75, 1.0);  // its centre is at -0.7
+  const NodeId other = addTable(0.2, 1.2, 0.75, -2.0);
+  EXPECT_EQ(parentOf(-0.6, 0.0, 0.76), turned);
+  EXPECT_EQ(parentOf(0.6, 0.0, 0.76), other);
+}
+
+TEST_F(TableChoice, IsTheNearestSurfaceBelow) {
+  const NodeId low = addTable(-0.5, 0.5, 0.55);
+  const NodeId high = addTable(-0.5, 0.5, 0.95);
+  EXPECT_EQ(parentOf(0.0, 0.0, 0.96), high);
+  EXPECT_EQ(parentOf(0.0, 0.0, 0.56), low);  // the other surface is nearer than 0.5 m, but above
+}
+
+TEST_F(TableChoice, FindsTheTableThroughTheHoleUnderTheObject) {
+  auto tree = std::make_unique<octomap::OcTree>(0.02);
+  for (double x = -0.39; x < 0.4; x += 0.02) {
+    for (double y = -0.39; y < 0.4; y += 0.02) {
+      if (std::max(std::abs(x), std::abs(y)) > 0.08) tree->updateNode(x, y, 0.01, true);
+    }
+  }
+  const NodeId beside = addTable(0.5, 1.5, 0.75);
+  const NodeId holed = hierarchy_.add(labels::table, NodeMap(std::move(tree), OccupancyModel{}),
+                                      Pose(0.0, 0.0, 0.74, 0.0, 0.0, 0.0), kRootId);
+  EXPECT_EQ(parentOf(0.0, 0.0, 0.76, 0.16), holed);
+  EXPECT_EQ(parentOf(1.0, 0.0, 0.76, 0.16), beside);
+}
+
+TEST_F(TableChoice, OfEqualsIsTheLowestId) {
+  const NodeId first = addTable(-0.5, 0.5, 0.75);
+  addTable(-0.5, 0.5, 0.75);
+  EXPECT_EQ(parentOf(0.0, 0.0, 0.76), first);
+}
+
+TEST_F(TableChoice, TableWithoutSurfaceIsTheLastChoice) {
+  hierarchy_.add(labels::table, NodeMap(0.02, OccupancyModel{}), Pose(), kRootId);
+  const NodeId real = addTable(-0.5, 0.5, 0.75);
+  EXPECT_EQ(parentOf(0.0, 0.0, 0.76), real);
+}
+
+}  // namespace
+}  // namespace hoctomap
