@@ -110,6 +110,10 @@ NodeRecord readNode(const YamlSection& section, bool removed) {
   node.first_scan = section["first_scan"].count();
   node.last_scan = section["last_scan"].count();
   node.version = section["version"].count();
+  const YamlSection votes = section["votes"];
+  node.votes.apart = votes["apart"].count();
+  node.votes.joined = votes["joined"].count();
+  node.votes.with = NodeId{static_cast<std::uint32_t>(votes["with"].count())};
   if (removed) node.removed_scan = section["removed_scan"].count();
   node.occupancy = readOccupancy(section["occupancy"]);
   node.ot = readFile(section["files"]["ot"]);

@@ -62,6 +62,9 @@ std::string nodeText(const NodeRecord& node) {
   text += count("first_scan", node.first_scan);
   text += count("last_scan", node.last_scan);
   text += count("version", node.version);
+  text += "    votes: {apart: " + std::to_string(node.votes.apart) +
+          ", joined: " + std::to_string(node.votes.joined) +
+          ", with: " + std::to_string(node.votes.with.value) + "}\n";
   if (node.removed_scan) text += count("removed_scan", *node.removed_scan);
   text += line("occupancy", occupancyText(node.occupancy));
   text += "    files:\n      ot: " + fileText(node.ot) + "\n      bt: " + fileText(node.bt) + "\n";

@@ -56,6 +56,7 @@ void setState(MapNode& node, const NodeRecord& record) {
   node.first_scan = record.first_scan;
   node.last_scan = record.last_scan;
   node.version = record.version;
+  node.votes = record.votes;
 }
 
 MapHierarchy readHierarchy(const std::filesystem::path& directory, const Manifest& manifest) {

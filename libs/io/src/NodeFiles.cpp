@@ -56,6 +56,7 @@ NodeRecord NodeFiles::record(const MapNode& node, const Pose& world_T_node) {
   record.first_scan = node.first_scan;
   record.last_scan = node.last_scan;
   record.version = node.version;
+  record.votes = node.votes;
   record.occupancy = node.map().model();
   record.ot = contents.ot;
   record.bt = contents.bt;

@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "NodeUpdate.h"
+#include "PieceVoting.h"
 #include "hoctomap/geometry/Errors.h"
 #include "hoctomap/geometry/PcaFrame.h"
 
@@ -51,6 +52,7 @@ struct HierarchyMapper::LabelledPart {
   PointCloud world_points;
   Label label;
   Obb box;
+  NodeId node;  ///< that took it
 };
 
 struct HierarchyMapper::NodeEvidence {
@@ -111,6 +113,9 @@ UpdateReport HierarchyMapper::integrate(const Measurement& z) {
     updateMaps(z, group, nodes, report);
   }
 
+  // Nodes that turn out to be pieces of others join them.
+  mergePieces(z, parts, evidence, report);
+
   // Eq. 8: nodes whose probability of existence falls below 0.5 are removed.
   const StageTimer timer(report.seconds.existence);
   applyExistence(z, evidence, report);
@@ -160,6 +165,7 @@ std::vector<NodeId> HierarchyMapper::associate(const Measurement& z, const std::
   std::vector<NodeId> nodes;
   for (std::size_t i = 0; i < parts.size(); ++i) {
     nodes.push_back(found[i] ? *found[i] : createNode(z, *parts[i], report));
+    parts[i]->node = nodes.back();
   }
   return nodes;
 }
@@ -229,11 +235,34 @@ void HierarchyMapper::adoptRelated(const std::vector<NodeId>& created) {
   }
 }
 
+void HierarchyMapper::mergePieces(const Measurement& z, const std::vector<LabelledPart>& parts,
+                                  const NodeEvidence& evidence, UpdateReport& report) {
+  std::vector<TakenSegment> taken;
+  for (const LabelledPart& part : parts) taken.push_back({part.node, &part.world_points});
+  for (std::size_t i = 0; i < evidence.nodes.size(); ++i) {
+    const NodeId piece = evidence.nodes[i];
+    const auto whole = voteOnPiece(hierarchy_, piece, evidence.evidence[i], taken);
+    if (!whole) continue;
+    MapNode& merged = hierarchy_.node(*whole);
+    const Pose world_T_piece = hierarchy_.world_T_node(piece);
+    merged.map().absorb(hierarchy_.node(piece).map(),
+                        toIsometry(-hierarchy_.world_T_node(*whole) + world_T_piece));
+    merged.version = z.scan;
+    merged.first_scan = std::min(merged.first_scan, hierarchy_.node(piece).first_scan);
+    removed_.push_back({hierarchy_.remove(piece), world_T_piece, z.scan});
+    const MapNode& gone = removed_.back().node;
+    report.events.push_back({NodeEventKind::merged, piece, gone.label(), gone.existence(),
+                             "into node " + std::to_string(whole->value)});
+  }
+}
+
 void HierarchyMapper::applyExistence(const Measurement& z, const NodeEvidence& evidence,
                                      UpdateReport& report) {
   for (std::size_t i = 0; i < evidence.nodes.size(); ++i) {
     const Evidence& e = evidence.evidence[i];
-    if (e.present + e.absent + e.occluded == 0) continue;  // out of view
+    if (e.present + e.absent + e.occluded == 0 || !hierarchy_.contains(evidence.nodes[i])) {
+      continue;  // out of view, or merged just now
+    }
     MapNode& node = hierarchy_.node(evidence.nodes[i]);
     if (e.informative) {
       const ExistenceFilter filter(profile(node.label()).existence);
@@ -242,7 +271,8 @@ void HierarchyMapper::applyExistence(const Measurement& z, const NodeEvidence& e
     report.existence.push_back({node.id(), e, node.existence()});
   }
   for (const NodeId id : evidence.nodes) {
-    if (!ExistenceFilter::isGone(hierarchy_.node(id).existence_log_odds)) continue;
+    if (!hierarchy_.contains(id) || !ExistenceFilter::isGone(hierarchy_.node(id).existence_log_odds))
+      continue;
     const Pose world_T_node = hierarchy_.world_T_node(id);
     removed_.push_back({hierarchy_.remove(id), world_T_node, z.scan});
     const MapNode& node = removed_.back().node;

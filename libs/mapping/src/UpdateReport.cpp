@@ -13,6 +13,8 @@ std::string toString(NodeEventKind kind) {
       return "updated";
     case NodeEventKind::removed:
       return "removed";
+    case NodeEventKind::merged:
+      return "merged";
     case NodeEventKind::moved:
       return "moved";
   }

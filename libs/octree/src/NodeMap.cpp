@@ -36,6 +36,21 @@ ScanUpdateReport NodeMap::update(const ScanUpdate& engine, const Beams& beams) {
   return engine.apply(*tree_, beams);
 }
 
+void NodeMap::absorb(const NodeMap& other, const Eigen::Isometry3d& this_T_other) {
+  occupied_valid_ = false;
+  octomap::OcTree source(*other.tree_);
+  source.expand();
+  for (const bool occupied : {true, false}) {
+    for (auto leaf = source.begin_leafs(); leaf != source.end_leafs(); ++leaf) {
+      if (source.isNodeOccupied(*leaf) != occupied) continue;
+      const Eigen::Vector3d p = this_T_other * Eigen::Vector3d(leaf.getX(), leaf.getY(), leaf.getZ());
+      octomap::OcTreeKey key;
+      if (!tree_->coordToKeyChecked(p.x(), p.y(), p.z(), key)) continue;
+      if (occupied || tree_->search(key) == nullptr) tree_->updateNode(key, leaf->getLogOdds());
+    }
+  }
+}
+
 const PointCloud& NodeMap::occupiedVoxels() const {
   if (!occupied_valid_) collectOccupied();
   return occupied_voxels_;

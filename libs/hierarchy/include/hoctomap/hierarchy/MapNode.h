@@ -13,6 +13,15 @@
 
 namespace hoctomap {
 
+/// How often scans showed a node apart from a neighbour of its label, and joined to it: whether the two are one
+/// (docs/decisions/0006).
+struct PieceVotes {
+  std::uint64_t apart = 0;   ///< scans in which the node took a segment of its own
+  std::uint64_t joined = 0;  ///< scans in which it was seen as part of a segment of `with`
+  NodeId with;
+  bool operator==(const PieceVotes&) const = default;
+};
+
 /// A node n_i = (m_i, t_i, p_i, C_i, l_i) of Eq. 2, with its probability of existence (Section III-D).
 /// The tree structure (t, p, C) is changed by `MapHierarchy` only.
 class MapNode {
@@ -34,6 +43,7 @@ class MapNode {
   std::uint64_t first_scan = 0;  ///< scan that created the node
   std::uint64_t last_scan = 0;   ///< last scan that updated its map
   std::uint64_t version = 0;     ///< last scan that changed the node's map; names its file
+  PieceVotes votes;
 
  private:
   friend class MapHierarchy;

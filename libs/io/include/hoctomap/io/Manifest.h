@@ -11,6 +11,7 @@
 
 #include "hoctomap/geometry/Pose.h"
 #include "hoctomap/hierarchy/Label.h"
+#include "hoctomap/hierarchy/MapNode.h"
 #include "hoctomap/hierarchy/NodeId.h"
 #include "hoctomap/octree/NodeMap.h"
 
@@ -46,6 +47,7 @@ struct NodeRecord {
   std::uint64_t first_scan = 0;
   std::uint64_t last_scan = 0;
   std::uint64_t version = 0;  ///< names the files
+  PieceVotes votes;
   OccupancyModel occupancy;   ///< sensor model (a `.ot` file forgets it)
   FileRecord ot;
   FileRecord bt;

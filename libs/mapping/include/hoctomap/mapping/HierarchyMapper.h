@@ -65,6 +65,8 @@ class HierarchyMapper {
   void updateMaps(const Measurement& z, const std::vector<LabelledPart*>& parts,
                   const std::vector<NodeId>& nodes, UpdateReport& report);
   void adoptRelated(const std::vector<NodeId>& created);
+  void mergePieces(const Measurement& z, const std::vector<LabelledPart>& parts, const NodeEvidence& evidence,
+                   UpdateReport& report);
   void applyExistence(const Measurement& z, const NodeEvidence& evidence, UpdateReport& report);
   [[nodiscard]] const LabelProfile& profile(const Label& label) const;
 

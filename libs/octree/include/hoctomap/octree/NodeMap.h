@@ -37,6 +37,10 @@ class NodeMap {
   /// Integrates one scan.
   ScanUpdateReport update(const ScanUpdate& engine, const Beams& beams);
 
+  /// Takes over what another map knows: its occupied voxels are added in log-odds, its free voxels only where
+  /// this map knows nothing. Voxels are resampled at their centres.
+  void absorb(const NodeMap& other, const Eigen::Isometry3d& this_T_other);
+
   /// Centres of the occupied voxels in the node's frame, at the map's resolution, in octree order.
   [[nodiscard]] const PointCloud& occupiedVoxels() const;
 
