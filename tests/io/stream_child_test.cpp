@@ -128,7 +128,7 @@ TEST(PipeSource, ACrashOfTheHelperIsAnInputErrorThatNamesTheLog) {
 }
 
 TEST(PipeSource, NonsenseFromTheHelperIsAnInputError) {
-  const FakeHelper helper("echo this is no scan stream at all, but long enough; sleep 60");
+  const FakeHelper helper("echo this is no scan stream at all, but long enough; exec sleep 60");
   EXPECT_NE(errorOfPipeSource().find("not a scan stream"), std::string::npos);
 }
 

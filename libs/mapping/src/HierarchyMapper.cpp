@@ -126,7 +126,7 @@ std::vector<HierarchyMapper::LabelledPart> HierarchyMapper::segmentAndLabel(cons
   std::vector<LabelledPart> parts;
   for (Segment& segment : strategies_.segmentation->segment(z)) {
     if (segment.points.empty()) continue;
-    LabelledPart part{segment.structure, {}, {}, strategies_.labeling->label(z, segment), {}};
+    LabelledPart part{segment.structure, {}, {}, strategies_.labeling->label(z, segment), {}, {}};
     static_cast<void>(profile(part.label));  // a label without a profile is an error at once
     part.points = std::move(segment.points);
     part.world_points.reserve(part.points.size());
