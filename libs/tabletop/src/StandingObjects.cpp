@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "hoctomap/tabletop/StandingObjects.h"
 
+#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
 
@@ -16,12 +17,28 @@ using Config = TabletopSegmentationConfig;
 constexpr double kFoot = 0.02;      // m, height of an object's foot above its lowest point
 constexpr double kThin = 0.01;      // m: what is thinner and
 constexpr double kThinSize = 0.08;  // m: smaller is a scrap of something, not the top of an object
-constexpr double kTop = 0.01;       // m, depth of an object's top below its highest points
+// Up to a view 60 degrees from above, a ball is seen down to half its radius.
+constexpr double kRoundFoot = 0.5;
+constexpr double kTop = 0.01;  // m, depth of an object's top below its highest points
 
 double quantile(std::vector<double> values, double q) {
   const auto at = values.begin() + static_cast<std::ptrdiff_t>(q * static_cast<double>(values.size() - 1));
   std::nth_element(values.begin(), at, values.end());
   return *at;
+}
+
+/// Half of the narrower extent of a cluster, seen from above: twice the smaller standard deviation, which is
+/// robust against stray points.
+double halfWidth(const Cluster& cluster, const Measurement& z) {
+  const auto n = static_cast<double>(cluster.size());
+  Eigen::Vector2d mean = Eigen::Vector2d::Zero();
+  for (const auto& c : cluster) mean += z.world_points[c.point].head<2>().cast<double>() / n;
+  Eigen::Matrix2d covariance = Eigen::Matrix2d::Zero();
+  for (const auto& c : cluster) {
+    const Eigen::Vector2d d = z.world_points[c.point].head<2>().cast<double>() - mean;
+    covariance += d * d.transpose() / n;
+  }
+  return 2.0 * std::sqrt(Eigen::SelfAdjointEigenSolver<Eigen::Matrix2d>(covariance).eigenvalues()[0]);
 }
 
 ClusterShape shapeOf(const Cluster& cluster, const Regions& regions, const Measurement& z,
@@ -42,6 +59,7 @@ ClusterShape shapeOf(const Cluster& cluster, const Regions& regions, const Measu
     if (c.height >= 0.0 && c.height <= shape.lowest + kFoot) shape.foot.push_back(c.cell);
     top += c.height > shape.highest - kTop;
   }
+  shape.half_width = halfWidth(cluster, z);
   shape.top_share = static_cast<double>(top) / static_cast<double>(cluster.size());
   return shape;
 }
@@ -94,7 +112,9 @@ std::vector<ShapedCluster> standing(std::vector<Cluster> clusters, const TableSu
   for (auto& cluster : clusters) {
     auto shape = shapeOf(cluster, regions, z, config);
     if (!couldBeObject(shape, regions, cluster.size(), config)) continue;
-    const bool on_table = shape.lowest <= config.contact_height + config.noise(shape.range);
+    // A body that is as deep as it is round curves away below: of a ball, a view from above misses the foot.
+    const double hidden_foot = kRoundFoot * shape.half_width;
+    const bool on_table = shape.lowest <= config.contact_height + hidden_foot + config.noise(shape.range);
     if (on_table) addShadow(shadow, cluster, table, z);
     (on_table ? objects : lifted).push_back({std::move(cluster), std::move(shape)});
   }

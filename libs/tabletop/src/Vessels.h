@@ -16,6 +16,7 @@ struct ClusterShape {
   double highest = 0.0;           ///< m above the table
   double top_share = 0.0;         ///< share of the points within 1 cm of the highest, and above
   double range = 0.0;             ///< m from the sensor, mean
+  double half_width = 0.0;        ///< m, of its narrower side, seen from above
   std::size_t outside = 0;        ///< points beyond the table or above the height limit
   std::size_t under = 0;          ///< points below the table
   std::vector<std::size_t> foot;  ///< cells under its lowest points
