@@ -2,6 +2,7 @@
 #include "MapRun.h"
 
 #include <chrono>
+#include <utility>
 
 #include "StopSignal.h"
 #include "hoctomap/geometry/Errors.h"
@@ -19,16 +20,15 @@ double secondsSince(Clock::time_point start) {
 }  // namespace
 
 MapRun::MapRun(const Settings& settings, HierarchyMapper& mapper, MapDirectory& directory, RunLog& log,
-               std::uint64_t first_scan, std::uint64_t snapshot_every)
+               Options options)
     : settings_(settings),
       mapper_(mapper),
       directory_(directory),
       log_(log),
-      snapshot_every_(snapshot_every),
-      next_scan_(first_scan) {}
+      options_(std::move(options)),
+      next_scan_(options_.first_scan) {}
 
 void MapRun::run(PipeSource& source, Progress& progress) {
-  input_ = source.header().logs_sha256;
   while (StopSignal::requested() == 0) {
     const auto start = Clock::now();
     const auto item = source.next();
@@ -38,7 +38,7 @@ void MapRun::run(PipeSource& source, Progress& progress) {
     if (const auto* z = std::get_if<Measurement>(&*item)) {
       integrate(*z, read_seconds);
     } else if (const auto* motion = std::get_if<ObjectMotion>(&*item)) {
-      integrate(*motion);
+      integrate(*motion, next_scan_);
     } else {
       const auto& skipped = std::get<SkippedScan>(*item);
       summary_.addSkipped(skipped);
@@ -48,9 +48,28 @@ void MapRun::run(PipeSource& source, Progress& progress) {
     progress.show(summary_.used() + summary_.skipped(), mapper_.hierarchy().size());
   }
   commit(false);
+  for (const ToldMotion& motion : options_.motions) {
+    log_.warn("events: line " + std::to_string(motion.line) +
+              " is for later than the last scan and was not used");
+  }
+}
+
+void MapRun::applyToldMotions(const Measurement& z) {
+  std::vector<ToldMotion> later;
+  for (const ToldMotion& told : options_.motions) {
+    if (!told.isDue(z.scan, z.stamp)) {
+      later.push_back(told);
+    } else if (const auto node = findNode(mapper_.hierarchy(), told)) {
+      integrate(ObjectMotion{z.stamp, *node, motionInNodeFrame(mapper_.hierarchy(), *node, told)}, z.scan);
+    } else {
+      log_.warn("events: line " + std::to_string(told.line) + " is about no movable node and was not used");
+    }
+  }
+  options_.motions = std::move(later);
 }
 
 void MapRun::integrate(const Measurement& z, double read_seconds) {
+  applyToldMotions(z);
   const UpdateReport report = mapper_.integrate(z);
   summary_.addUsed(z);
   summary_.addReport(report);
@@ -71,8 +90,8 @@ void MapRun::integrate(const Measurement& z, double read_seconds) {
   directory_.append(row);
 }
 
-void MapRun::integrate(const ObjectMotion& motion) {
-  const UpdateReport report = mapper_.integrate(motion, next_scan_);
+void MapRun::integrate(const ObjectMotion& motion, std::uint64_t scan) {
+  const UpdateReport report = mapper_.integrate(motion, scan);
   for (const auto& warning : report.warnings) log_.warn(warning);
   directory_.append(report);
 }
@@ -81,13 +100,13 @@ void MapRun::finishScan(std::uint64_t scan) {
   next_scan_ = scan + 1;
   ++uncommitted_;
   ++since_snapshot_;
-  const bool snapshot = snapshot_every_ > 0 && since_snapshot_ >= snapshot_every_;
+  const bool snapshot = options_.snapshot_every > 0 && since_snapshot_ >= options_.snapshot_every;
   if (snapshot || uncommitted_ >= static_cast<std::uint64_t>(settings_.checkpoint_scans)) commit(snapshot);
 }
 
 void MapRun::commit(bool keep) {
   const auto start = Clock::now();
-  directory_.commit({mapper_.hierarchy(), mapper_.removed(), next_scan_, input_, keep});
+  directory_.commit({mapper_.hierarchy(), mapper_.removed(), next_scan_, options_.input, keep});
   uncommitted_ = 0;
   if (keep) since_snapshot_ = 0;
   summary_.addSeconds("write", secondsSince(start));

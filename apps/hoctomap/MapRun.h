@@ -8,6 +8,7 @@
 #include "RunSummary.h"
 #include "hoctomap/config/Settings.h"
 #include "hoctomap/io/MapDirectory.h"
+#include "hoctomap/io/MotionFile.h"
 #include "hoctomap/io/PipeSource.h"
 #include "hoctomap/mapping/HierarchyMapper.h"
 
@@ -16,9 +17,15 @@ namespace hoctomap {
 /// The loop of `build`: scans from the source into the mapper, the map into its directory.
 class MapRun {
  public:
-  /// @param first_scan number of the first scan that is not in the map yet
+  struct Options {
+    std::string input;                 ///< what the logs and events are known by in the map
+    std::uint64_t first_scan = 0;      ///< the first one that is not in the map yet
+    std::uint64_t snapshot_every = 0;  ///< scans; 0: no snapshots
+    std::vector<ToldMotion> motions;   ///< that are not in the map yet
+  };
+
   MapRun(const Settings& settings, HierarchyMapper& mapper, MapDirectory& directory, RunLog& log,
-         std::uint64_t first_scan, std::uint64_t snapshot_every);
+         Options options);
 
   /// Runs to the end of the source, or until a signal asks to stop. Commits every `checkpoint_scans` scans
   /// and at the end.
@@ -28,7 +35,8 @@ class MapRun {
 
  private:
   void integrate(const Measurement& z, double read_seconds);
-  void integrate(const ObjectMotion& motion);
+  void integrate(const ObjectMotion& motion, std::uint64_t scan);
+  void applyToldMotions(const Measurement& z);
   void finishScan(std::uint64_t scan);
   void commit(bool keep);
 
@@ -36,8 +44,7 @@ class MapRun {
   HierarchyMapper& mapper_;
   MapDirectory& directory_;
   RunLog& log_;
-  std::uint64_t snapshot_every_;
-  std::string input_;
+  Options options_;
   std::uint64_t next_scan_;
   std::uint64_t uncommitted_ = 0;
   std::uint64_t since_snapshot_ = 0;

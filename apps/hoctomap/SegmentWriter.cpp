@@ -6,8 +6,8 @@
 #include <sstream>
 
 #include "hoctomap/geometry/Errors.h"
-#include "hoctomap/io/LabelPng.h"
 #include "hoctomap/io/CsvText.h"
+#include "hoctomap/io/LabelPng.h"
 #include "hoctomap/tabletop/LabelImage.h"
 
 namespace hoctomap {
@@ -47,8 +47,8 @@ void SegmentWriter::write(const Measurement& z, std::span<const Segment> segment
     Eigen::AlignedBox3d box;
     for (const auto p : segments[i].points) box.extend(z.world_points[p].cast<double>());
     if (box.isEmpty()) continue;
-    rows_ += std::to_string(z.scan) + "," + std::to_string(i) + "," + labeling.label(z, segments[i]).name + "," +
-             std::to_string(segments[i].points.size());
+    rows_ += std::to_string(z.scan) + "," + std::to_string(i) + "," + labeling.label(z, segments[i]).name +
+             "," + std::to_string(segments[i].points.size());
     appendVector(rows_, box.center());
     appendVector(rows_, 0.5 * box.sizes());
     rows_ += "\n";

@@ -23,6 +23,8 @@ StopSignal::StopSignal() {
   sigemptyset(&action.sa_mask);
   sigaction(SIGINT, &action, nullptr);
   sigaction(SIGTERM, &action, nullptr);
+  // A file-size limit is then an error of the write, with a message and an exit code of its own.
+  std::signal(SIGXFSZ, SIG_IGN);
 }
 
 int StopSignal::requested() {

@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <tbb/global_control.h>
 
+#include <fstream>
 #include <iostream>
+#include <iterator>
 #include <memory>
 
 #include "Command.h"
@@ -13,6 +15,7 @@
 #include "hoctomap/io/ChildProcess.h"
 #include "hoctomap/io/MapDescription.h"
 #include "hoctomap/io/MapReader.h"
+#include "hoctomap/io/Sha256.h"
 
 namespace hoctomap {
 
@@ -23,6 +26,7 @@ struct BuildOptions {
   bool resume = false;
   bool overwrite = false;
   std::uint64_t snapshot_every = 0;
+  std::string events;
   bool monolithic = false;
 };
 
@@ -30,6 +34,12 @@ void writeScene(const std::filesystem::path& directory, const std::filesystem::p
   if (runHelper({"scene", directory.string(), file.string()}) != 0) {
     throw FileError(file.string() + ": the scene could not be written");
   }
+}
+
+Settings settingsOf(const BuildOptions& options) {
+  LogOptions log = options.log;
+  if (options.monolithic) log.overrides.emplace_back("mapping.monolithic=true");
+  return log.settings();
 }
 
 /// What has been mapped already, if a run is continued.
@@ -45,9 +55,33 @@ HierarchyMapper makeMapper(const Settings& settings, const std::optional<Manifes
   return {settings.mappingConfig(), settings.labels, makeStrategies(settings), readMap(directory).hierarchy};
 }
 
+/// The told motions that a run beginning at `first_scan` has to apply.
+std::vector<ToldMotion> toldMotions(const BuildOptions& options, std::uint64_t first_scan) {
+  std::vector<ToldMotion> motions;
+  if (options.events.empty()) return motions;
+  motions = readMotionFile(options.events);
+  if (first_scan == 0) return motions;
+  for (const ToldMotion& motion : motions) {
+    if (!std::holds_alternative<std::uint64_t>(motion.when)) {
+      throw ConfigError(options.events + ": with --continue, motions must be given by scan, not by time");
+    }
+  }
+  std::erase_if(motions,
+                [first_scan](const auto& m) { return std::get<std::uint64_t>(m.when) < first_scan; });
+  return motions;
+}
+
+/// What the map remembers its input by: another log, or other events, are another input.
+std::string inputIdentity(const PipeSource& source, const BuildOptions& options) {
+  const std::string logs = source.header().logs_sha256;
+  if (options.events.empty()) return logs;
+  std::ifstream in(options.events, std::ios::binary);
+  const std::string events{std::istreambuf_iterator<char>(in), {}};
+  return sha256Hex(logs + sha256Hex(events));
+}
+
 int build(const BuildOptions& options) {
-  Settings settings = options.log.settings();
-  settings.monolithic |= options.monolithic;
+  const Settings settings = settingsOf(options);
   RunLog log(options.log.verbose, options.log.quiet);
   const tbb::global_control threads(tbb::global_control::max_allowed_parallelism, options.log.threadCount());
   const StopSignal stop_signal;
@@ -56,22 +90,27 @@ int build(const BuildOptions& options) {
   const auto committed = committedMap(options);
   LogReadOptions read = options.log.readOptions(settings);
   if (committed) read.resume_at = committed->scans;
+  const auto motions = toldMotions(options, read.resume_at);
   PipeSource source(read, RangeLimits{settings.sensor.min_range},
                     [&log](const std::string& text) { log.warn(text); });
-  if (committed && committed->input != source.header().logs_sha256) {
-    throw InputError("the logs are not those that " + options.log.output + " was built from");
+  const std::string input = inputIdentity(source, options);
+  if (committed && committed->input != input) {
+    throw InputError("the logs (and --events) are not those that " + options.log.output + " was built from");
   }
 
   const MapOpenMode mode = options.resume      ? MapOpenMode::resume
                            : options.overwrite ? MapOpenMode::overwrite
                                                : MapOpenMode::create;
   MapDirectory directory(options.log.output, {mode, toIni(settings), "hoctomap " HOCTOMAP_VERSION, {}});
+  if (committed && (!directory.committed() || directory.committed()->scans != committed->scans)) {
+    throw FileError(options.log.output + ": another program has changed the map just now");
+  }
   log.writeTo(directory.logFile());
   log.info("poses: " + source.header().pose_source);
   if (committed) log.info("continuing at scan " + std::to_string(committed->scans));
 
   HierarchyMapper mapper = makeMapper(settings, committed, directory.path());
-  MapRun run(settings, mapper, directory, log, read.resume_at, options.snapshot_every);
+  MapRun run(settings, mapper, directory, log, {input, read.resume_at, options.snapshot_every, motions});
   {
     Progress progress(log, source.totalScans(), options.log.quiet);
     run.run(source, progress);
@@ -105,6 +144,10 @@ void addBuildCommand(CLI::App& app, Action& action) {
   command->add_flag("--overwrite", options->overwrite, "replace the map in DIR")->excludes(resume);
   command->add_option("--snapshot-every", options->snapshot_every, "keep the state after every N scans")
       ->type_name("N");
+  command
+      ->add_option("--events", options->events,
+                   "movements of nodes: CSV with scan|time, node|px,py,pz, x,y,z,yaw,pitch,roll")
+      ->type_name("FILE");
   command->add_flag("--monolithic", options->monolithic, "one single map, as stock OctoMap would build it");
   command->callback([options, &action] { action = [options] { return build(*options); }; });
 }

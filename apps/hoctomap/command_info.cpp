@@ -6,6 +6,7 @@
 #include "hoctomap/geometry/Errors.h"
 #include "hoctomap/io/ChildProcess.h"
 #include "hoctomap/io/MapDescription.h"
+#include "hoctomap/io/MapReader.h"
 
 namespace hoctomap {
 
@@ -20,6 +21,12 @@ struct InfoOptions {
 int info(const InfoOptions& options) {
   if (std::filesystem::is_directory(options.path)) {
     const Manifest manifest = readManifest(options.path, options.at_scan);
+    const auto damage = findDamage(options.path, manifest);
+    if (!damage.empty()) {
+      throw MapError(
+          options.path + "/" + damage.front().path + ": " + damage.front().what +
+          (damage.size() > 1 ? " (and " + std::to_string(damage.size() - 1) + " more files)" : ""));
+    }
     std::cout << (options.json ? mapJson(manifest) : describeMap(manifest)) << std::flush;
     return 0;
   }

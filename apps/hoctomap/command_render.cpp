@@ -32,7 +32,8 @@ void addRenderCommand(CLI::App& app, Action& action) {
   command->add_option("map", options->map, "map directory")->type_name("DIR")->required();
   command->add_option("-o,--output", options->output, "the picture")->type_name("PNG")->required();
   command->add_option("--size", options->size, "in pixels")->type_name("WxH");
-  command->add_option("--view", options->view, "front or top")->type_name("VIEW");
+  command->add_option("--view", options->view, "oblique (default), front, back, left, right or top")
+      ->type_name("VIEW");
   command->callback([options, &action] { action = [options] { return render(*options); }; });
 }
 

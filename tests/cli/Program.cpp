@@ -86,7 +86,8 @@ std::map<std::string, std::string> readTree(const fs::path& folder) {
 std::map<std::string, std::string> reproducibleFiles(const fs::path& map) {
   auto files = readTree(map);
   std::erase_if(files, [](const auto& file) {
-    return file.first == "timing.csv" || file.first == "log.txt" || file.first.find("lock") != std::string::npos;
+    return file.first == "timing.csv" || file.first == "log.txt" ||
+           file.first.find("lock") != std::string::npos;
   });
   return files;
 }

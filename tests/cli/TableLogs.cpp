@@ -1,0 +1,100 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "TableLogs.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cstdlib>
+
+#include "hoctomap/io/MapReader.h"
+#include "hoctomap/io/PipeLogWriter.h"
+#include "hoctomap/io/PipeSource.h"
+#include "support/SharedData.h"
+
+namespace hoctomap::test {
+
+std::string scene(const std::string& name) {
+  return (sourceDir() / "configs/scenes" / (name + ".ini")).string();
+}
+
+void simulate(const std::string& scene_name, const std::string& log,
+              const std::vector<std::string>& settings) {
+  std::vector<std::string> arguments{"simulate", "-q", "-c", scene(scene_name), "-o", log};
+  for (const auto& setting : settings) arguments.insert(arguments.end(), {"--set", setting});
+  const Outcome outcome = hoctomap(arguments);
+  ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
+}
+
+Outcome build(const std::string& log, const std::string& map, const std::vector<std::string>& more,
+              int expected) {
+  std::vector<std::string> arguments{"build", "-q", "-i", log, "-o", map};
+  arguments.insert(arguments.end(), more.begin(), more.end());
+  Outcome outcome = hoctomap(arguments);
+  EXPECT_EQ(outcome.exit_code, expected) << outcome.err;
+  return outcome;
+}
+
+void reverseLog(const std::string& log, const std::string& reversed) {
+  setenv("HOCTOMAP_MRPT", HOCTOMAP_HELPER, 1);
+  LogReadOptions options;
+  options.logs = {log};
+  PipeSource source(options, RangeLimits{}, [](const std::string&) {});
+  std::vector<Measurement> scans;
+  while (auto item = source.next()) {
+    if (auto* z = std::get_if<Measurement>(&*item)) scans.push_back(std::move(*z));
+  }
+  PipeLogWriter writer(reversed);
+  for (std::size_t i = 0; i < scans.size(); ++i) {
+    const Measurement& z = scans[scans.size() - 1 - i];
+    const double stamp = scans[i].stamp;
+    writer.write(TruthPose{stamp, "groundtruth", z.world_T_sensor});
+    writer.write(DepthScan{i, stamp, z.sensor, z.world_T_sensor, *z.image});
+  }
+  writer.finish();
+}
+
+std::vector<MappedNode> nodesOf(const std::string& map, const std::string& label) {
+  const StoredMap stored = readMap(map);
+  std::vector<MappedNode> nodes;
+  for (const NodeRecord& record : stored.manifest.nodes) {
+    if (record.label.name != label) continue;
+    Eigen::Vector3d sum = Eigen::Vector3d::Zero();
+    const PointCloud& voxels = stored.hierarchy.node(record.id).map().occupiedVoxels();
+    for (const auto& voxel : voxels) sum += voxel.cast<double>();
+    nodes.push_back({record, toIsometry(record.world_T_node) * (sum / static_cast<double>(voxels.size()))});
+  }
+  return nodes;
+}
+
+void expectTruth(const std::string& map, const std::string& truth, double tolerance) {
+  const auto rows = parseCsv(readFile(std::filesystem::path(truth) / "poses.csv"));
+  ASSERT_FALSE(rows.empty());
+  const std::string last_scan = rows.back().at("scan");
+  const auto number = [](const auto& row, const std::string& key) { return std::stod(row.at(key)); };
+  const auto tables = nodesOf(map, "table");
+  auto objects = nodesOf(map, "object");
+  for (const auto& row : rows) {
+    if (row.at("scan") != last_scan || row.at("label") != "object" || row.at("present") != "1") continue;
+    const Eigen::Vector3d seen(number(row, "sx"), number(row, "sy"), number(row, "sz"));
+    const auto distance = [&](const MappedNode& n) { return (n.centroid - seen).norm(); };
+    ASSERT_FALSE(objects.empty()) << row.at("object") << " is missing";
+    const auto nearest = std::min_element(objects.begin(), objects.end(), [&](const auto& a, const auto& b) {
+      return distance(a) < distance(b);
+    });
+    EXPECT_LT(distance(*nearest), tolerance) << row.at("object");
+    const auto parent = std::find_if(tables.begin(), tables.end(),
+                                     [&](const auto& t) { return t.record.id == nearest->record.parent; });
+    ASSERT_NE(parent, tables.end()) << row.at("object") << " does not stand on a table";
+    for (const auto& table : tables) {
+      EXPECT_LE((parent->centroid - seen).norm(), (table.centroid - seen).norm())
+          << "another table is nearer";
+    }
+    objects.erase(nearest);
+  }
+  for (const auto& spurious : objects) {
+    ADD_FAILURE() << "node " << spurious.record.id.value
+                  << " is no object: " << spurious.centroid.transpose();
+  }
+}
+
+}  // namespace hoctomap::test

@@ -1,0 +1,40 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "Program.h"
+#include "hoctomap/io/Manifest.h"
+
+namespace hoctomap::test {
+
+/// Path of a scene of configs/scenes.
+std::string scene(const std::string& name);
+
+/// Makes LOG (and its truth) of a scene of configs/scenes. Fails the test if that fails.
+void simulate(const std::string& scene_name, const std::string& log,
+              const std::vector<std::string>& settings = {});
+
+/// Builds a map; fails the test unless the exit code is `expected`.
+Outcome build(const std::string& log, const std::string& map, const std::vector<std::string>& more = {},
+              int expected = 0);
+
+/// Writes the depth scans of a log in reverse order, at the times of the original.
+void reverseLog(const std::string& log, const std::string& reversed);
+
+/// A node as the tests look at it.
+struct MappedNode {
+  NodeRecord record;
+  Eigen::Vector3d centroid;  ///< of the occupied voxels, in the world
+};
+
+/// The nodes of a map with this label.
+std::vector<MappedNode> nodesOf(const std::string& map, const std::string& label);
+
+/// Compares the objects of a map with the truth that `simulate` wrote for the last scan: each is exactly one
+/// node, within `tolerance` metres of what the sensor has seen of it, below the table it stands on.
+void expectTruth(const std::string& map, const std::string& truth, double tolerance);
+
+}  // namespace hoctomap::test

@@ -1,0 +1,127 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include <gtest/gtest.h>
+
+#include "TableLogs.h"
+
+namespace hoctomap {
+namespace {
+
+using test::TemporaryFolder;
+
+bool isPng(const std::string& bytes) {
+  return bytes.rfind("\x89PNG\r\n\x1a\n", 0) == 0;
+}
+
+/// Width or height in the header of a PNG.
+std::uint32_t pngSize(const std::string& bytes, std::size_t at) {
+  std::uint32_t size = 0;
+  for (std::size_t i = 0; i < 4; ++i) size = size << 8 | static_cast<unsigned char>(bytes.at(at + i));
+  return size;
+}
+
+TEST(Segment, WritesALabelImageAScan) {
+  const TemporaryFolder folder;
+  test::simulate("demo", folder / "a.rawlog");
+  const auto outcome = test::hoctomap({"segment", "-q", "-i", folder / "a.rawlog", "-o", folder / "out"});
+  ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
+  for (int k = 0; k < 6; ++k) {
+    const std::string png = test::readFile(folder / ("out/labels/00000" + std::to_string(k) + ".png"));
+    EXPECT_TRUE(isPng(png));
+    EXPECT_EQ(pngSize(png, 16), 160U);
+    EXPECT_EQ(pngSize(png, 20), 120U);
+    EXPECT_EQ(png.at(24), 16) << "bits";
+  }
+  const auto segments = test::readFile(folder / "out/segments.csv");
+  EXPECT_EQ(segments.substr(0, segments.find('\n')), "scan,segment,label,points,cx,cy,cz,hx,hy,hz");
+  std::map<std::string, int> labels;
+  for (const auto& row : test::parseCsv(segments)) ++labels[row.at("label")];
+  EXPECT_EQ(labels["background"], 6);
+  EXPECT_EQ(labels["table"], 6);
+  EXPECT_EQ(labels["object"], 18) << "three objects in each of six scans";
+  EXPECT_EQ(test::hoctomap({"segment", "-q", "-i", folder / "a.rawlog", "-o", folder / "out"}).exit_code, 2);
+}
+
+TEST(Info, OfALogSaysWhatItHolds) {
+  const TemporaryFolder folder;
+  test::simulate("demo", folder / "a.rawlog");
+  const auto text = test::hoctomap({"info", folder / "a.rawlog"});
+  EXPECT_EQ(text.exit_code, 0);
+  for (const char* expected : {"RGBD", "160 x 120", "groundtruth", "can be built: yes"}) {
+    EXPECT_NE(text.out.find(expected), std::string::npos) << text.out;
+  }
+  const auto json = test::hoctomap({"info", folder / "a.rawlog", "--json"});
+  EXPECT_EQ(json.out.front(), '{');
+}
+
+TEST(Info, OfAMapShowsTheTree) {
+  const TemporaryFolder folder;
+  test::simulate("demo", folder / "a.rawlog");
+  test::build(folder / "a.rawlog", folder / "map");
+  const auto text = test::hoctomap({"info", folder / "map"});
+  EXPECT_EQ(text.exit_code, 0);
+  EXPECT_NE(text.out.find("5 nodes (1 background, 3 object, 1 table)"), std::string::npos) << text.out;
+  EXPECT_EQ(test::hoctomap({"info", folder / "map", "--json"}).out.front(), '{');
+  EXPECT_EQ(test::hoctomap({"info", folder / "a.rawlog", "--at-scan", "1"}).exit_code, 2);
+}
+
+TEST(Render, MakesAPictureWithoutADisplay) {
+  const TemporaryFolder folder;
+  test::simulate("demo", folder / "a.rawlog");
+  test::build(folder / "a.rawlog", folder / "map");
+  const auto outcome = test::hoctomap(
+      {"render", folder / "map", "-o", folder / "map.png", "--size", "320x200", "--view", "top"});
+  ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
+  const std::string png = test::readFile(folder / "map.png");
+  EXPECT_TRUE(isPng(png));
+  EXPECT_EQ(pngSize(png, 16), 320U);
+  EXPECT_EQ(pngSize(png, 20), 200U);
+  EXPECT_EQ(test::hoctomap({"render", folder / "nothing", "-o", folder / "b.png"}).exit_code, 4);
+}
+
+TEST(Simulate, IsReproducibleAndStockToolsReadItsLog) {
+  const TemporaryFolder folder;
+  test::simulate("demo", folder / "a.rawlog");
+  test::simulate("demo", folder / "b.rawlog");
+  EXPECT_EQ(test::readFile(folder / "a.rawlog"), test::readFile(folder / "b.rawlog"));
+  EXPECT_EQ(test::readTree(folder / "a.truth"), test::readTree(folder / "b.truth"));
+  const auto stock = test::runProgram("rawlog-edit", {"--info", "-i", folder / "a.rawlog"});
+  if (stock.exit_code == 127) GTEST_SKIP() << "rawlog-edit (package mrpt-apps) is not installed";
+  EXPECT_NE(stock.out.find("Overall number of objects         : 12"), std::string::npos) << stock.out;
+}
+
+TEST(StockTools, OpenTheMap) {
+  const TemporaryFolder folder;
+  test::simulate("demo", folder / "a.rawlog");
+  test::build(folder / "a.rawlog", folder / "map");
+  const Manifest manifest = readManifest(folder / "map");
+  const auto probe = test::runProgram("convert_octree", {});
+  if (probe.exit_code == 127) GTEST_SKIP() << "convert_octree (package octomap-tools) is not installed";
+  for (const NodeRecord& node : manifest.nodes) {
+    const auto ot = test::runProgram("convert_octree", {folder / "map/" + node.ot.path, folder / "copy.bt"});
+    EXPECT_EQ(ot.exit_code, 0) << ot.err;
+    // Stock OctoMap makes the same maximum-likelihood file of the truth as we did.
+    EXPECT_EQ(test::readFile(folder / "copy.bt"), test::readFile(folder / "map/" + node.bt.path));
+  }
+  const auto yaml = test::runProgram(
+      "python3", {"-c",
+                  "import sys,yaml; m=yaml.safe_load(open(sys.argv[1])); "
+                  "assert all(isinstance(n['existence'],float) and isinstance(n['resolution'],float) and "
+                  "isinstance(n['world_pose'],str) and len(n['pose_matrix'])==16 for n in m['nodes']); "
+                  "print(len(m['nodes']))",
+                  folder / "map/hierarchy.yaml"});
+  if (yaml.err.find("No module named") != std::string::npos) GTEST_SKIP() << "python3 has no yaml module";
+  EXPECT_EQ(yaml.exit_code, 0) << yaml.err;
+  EXPECT_EQ(yaml.out, "5\n");
+}
+
+TEST(Example, AnOwnRelationMakesItsTree) {
+  const auto outcome = test::runProgram(HOCTOMAP_EXAMPLE, {});
+  EXPECT_EQ(outcome.exit_code, 0);
+  EXPECT_NE(outcome.out.find("background 0"), std::string::npos) << outcome.out;
+  EXPECT_NE(outcome.out.find("\n  shelf 1"), std::string::npos) << outcome.out;
+  EXPECT_NE(outcome.out.find("\n    object 2"), std::string::npos) << outcome.out;
+  EXPECT_NE(outcome.out.find("\n    object 3"), std::string::npos) << outcome.out;
+}
+
+}  // namespace
+}  // namespace hoctomap

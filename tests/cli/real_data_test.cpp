@@ -1,0 +1,93 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include <gtest/gtest.h>
+
+#include "TableLogs.h"
+#include "support/SharedData.h"
+
+namespace hoctomap {
+namespace {
+
+using test::TemporaryFolder;
+
+/// The folder of real data; the test must skip if there is none.
+std::string dataFile(const std::string& name) {
+  const auto data = test::sharedData();
+  return data ? (*data / name).string() : std::string();
+}
+
+/// What stands on the wooden table of the kitchen sweep, as its colour images show: world x, y of each solid
+/// object.
+const std::map<std::string, Eigen::Vector2d> kKitchenObjects{{"flowered mug", {1.08, -1.07}},
+                                                             {"white mug", {1.55, -0.21}},
+                                                             {"plastic box", {0.95, -1.35}},
+                                                             {"red tool", {0.71, -1.46}}};
+
+void expectKitchen(const std::string& map) {
+  const auto tables = test::nodesOf(map, "table");
+  EXPECT_EQ(tables.size(), 2U) << "the wooden table and the counter";
+  const auto wooden = std::find_if(tables.begin(), tables.end(),
+                                   [](const auto& t) { return std::abs(t.centroid.z() - 0.727) < 0.03; });
+  ASSERT_NE(wooden, tables.end());
+  auto objects = test::nodesOf(map, "object");
+  for (const auto& [name, place] : kKitchenObjects) {
+    const auto at = [&place = place](const test::MappedNode& n) {
+      return (n.centroid.head<2>() - place).norm() < 0.08;
+    };
+    EXPECT_EQ(std::count_if(objects.begin(), objects.end(), at), 1) << name;
+    for (const auto& object : objects) {
+      if (at(object)) {
+        EXPECT_EQ(object.record.parent, wooden->record.id) << name;
+      }
+    }
+    std::erase_if(objects, at);
+  }
+  // The pile of magazines between the mugs may be an object; nothing else is.
+  for (const auto& object : objects) {
+    EXPECT_LT((object.centroid.head<2>() - Eigen::Vector2d(1.40, -0.35)).norm(), 0.25)
+        << "node " << object.record.id.value << " at " << object.centroid.transpose();
+  }
+}
+
+TEST(RealData, TheKitchenSweepForwardAndInReverse) {
+  const std::string log = dataFile("redkitchen/table_sweep_a.rawlog");
+  if (log.empty()) GTEST_SKIP() << "no shared data";
+  const TemporaryFolder folder;
+  test::build(log, folder / "forward");
+  expectKitchen(folder / "forward");
+  test::reverseLog(log, folder / "reversed.rawlog");
+  test::build(folder / "reversed.rawlog", folder / "backward");
+  expectKitchen(folder / "backward");
+}
+
+TEST(RealData, TheStereoCloudHasOneTableAndAMug) {
+  const std::string log = dataFile("pr2_stereo/table_with_mug.rawlog");
+  if (log.empty()) GTEST_SKIP() << "no shared data";
+  const TemporaryFolder folder;
+  test::build(log, folder / "map");
+  EXPECT_EQ(test::nodesOf(folder / "map", "table").size(), 1U);
+  EXPECT_EQ(test::nodesOf(folder / "map", "object").size(), 1U);
+}
+
+TEST(RealData, OccludedObjectsThatVanishAreRemoved) {
+  const auto data = test::sharedData();
+  if (!data) GTEST_SKIP() << "no shared data";
+  int sequences = 0;
+  for (const auto& entry : std::filesystem::directory_iterator(*data / "mosd_change")) {
+    if (entry.path().filename().string().rfind("occl_", 0) != 0) continue;
+    ++sequences;
+    const TemporaryFolder folder;
+    test::build(entry.path() / "sequence.rawlog", folder / "map");
+    std::map<std::string, std::vector<int>> states;  // event -> states (three scans each)
+    for (const auto& row : test::parseCsv(test::readFile(folder / "map/events.csv"))) {
+      if (row.at("label") == "object" && row.at("event") != "updated") {
+        states[row.at("event")].push_back(std::stoi(row.at("scan")) / 3);
+      }
+    }
+    const std::map<std::string, std::vector<int>> expected{{"created", {0, 1}}, {"removed", {2}}};
+    EXPECT_EQ(states, expected) << entry.path();
+  }
+  EXPECT_GE(sequences, 6);
+}
+
+}  // namespace
+}  // namespace hoctomap
