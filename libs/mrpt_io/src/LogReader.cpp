@@ -41,6 +41,7 @@ struct LogReader::Passes {
   Passes(LogReadOptions given, ReadProgress& shared) : options(std::move(given)), progress(shared) {
     registerLogClasses();
     surveyAll();
+    checkScans();
     poses.emplace(options, surveys);
     makeHeader();
   }
@@ -49,6 +50,7 @@ struct LogReader::Passes {
   void surveyAll();
   void checkDamage(std::uint32_t log);
   void warnOf(std::uint32_t log);
+  void checkScans() const;
   void countChosen();
   void makeHeader();
 
@@ -131,6 +133,12 @@ void LogReader::Passes::warnOf(std::uint32_t log) {
                        " that are no observations ignored");
 }
 
+void LogReader::Passes::checkScans() const {
+  if (std::any_of(surveys.begin(), surveys.end(), [](const auto& s) { return s.scans > 0; })) return;
+  throw InputError(escapedText(options.logs[0].string()) +
+                   ": no usable observation: no sensor gives 3D points");
+}
+
 void LogReader::Passes::makeHeader() {
   for (const auto& survey : surveys) {
     header.total_scans += survey.scans;
@@ -146,9 +154,6 @@ void LogReader::Passes::makeHeader() {
   }
   header.pose_source = poses->description();
   header.logs_sha256 = sha256OfFiles(options.logs);
-  if (header.total_scans == 0)
-    throw InputError(escapedText(options.logs[0].string()) +
-                     ": no usable observation: no sensor gives 3D points");
   for (const auto& wanted : options.sensors) {
     if (std::none_of(header.sensors.begin(), header.sensors.end(),
                      [&](const auto& s) { return s.label == wanted; }))

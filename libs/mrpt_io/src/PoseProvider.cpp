@@ -71,7 +71,10 @@ void PoseProvider::chooseRobotPoses(const LogReadOptions& options, const std::ve
   if (!label) {
     const std::string tail = std::string("; give --poses FILE, ") + (odometry ? "--poses odometry, " : "") +
                              "or --poses identity if the sensor's pose on the robot is its pose in the world";
-    if (present.empty()) throw InputError("no poses: the log has no CObservationRobotPose entries" + tail);
+    if (present.empty()) {
+      throw InputError(escapedText(options.logs[0].string()) +
+                       ": no poses: there are no CObservationRobotPose entries" + tail);
+    }
     const std::string list = "robot poses are labelled " + quotedList(present);
     if (!options.pose_label.empty())
       throw InputError("--pose-label '" + escapedText(options.pose_label, 100) + "': " + list + tail);
