@@ -83,6 +83,7 @@ LogReadOptions LogOptions::readOptions(const Settings& settings) const {
   read.max_inflated_bytes = static_cast<std::uint64_t>(settings.limits.max_inflated_bytes);
   read.max_ratio = settings.limits.max_inflate_ratio;
   read.max_object_bytes = static_cast<std::uint64_t>(settings.limits.max_object_bytes);
+  read.max_points = static_cast<std::uint64_t>(settings.limits.max_points);
   return read;
 }
 

@@ -79,15 +79,28 @@ void MapRun::integrate(const Measurement& z, double read_seconds) {
     log_.debug("scan " + std::to_string(z.scan) + ": " + event.label.name + " " +
                std::to_string(event.node.value) + " " + toString(event.kind) + " (" + event.detail + ")");
   }
-  if (mapper_.hierarchy().size() > static_cast<std::size_t>(settings_.limits.max_nodes)) {
-    throw LimitError("scan " + std::to_string(z.scan) + ": the map has more than " +
-                     std::to_string(settings_.limits.max_nodes) + " nodes ([limits] max_nodes)");
-  }
+  checkLimits(report);
   TimingRow row{z.scan, z.world_points.size(), read_seconds, report.seconds, 0.0};
   const auto start = Clock::now();
   finishScan(z.scan);
   row.write_s = secondsSince(start);
   directory_.append(row);
+}
+
+void MapRun::checkLimits(const UpdateReport& report) const {
+  const MapHierarchy& map = mapper_.hierarchy();
+  const std::string scan = "scan " + std::to_string(report.scan) + ": ";
+  if (map.size() > static_cast<std::size_t>(settings_.limits.max_nodes)) {
+    throw LimitError(scan + "the map has more than " + std::to_string(settings_.limits.max_nodes) +
+                     " nodes ([limits] max_nodes)");
+  }
+  for (const NodeEvent& event : report.events) {
+    if (event.kind == NodeEventKind::created && map.contains(event.node) &&
+        map.depth(event.node) > static_cast<std::size_t>(settings_.limits.max_depth)) {
+      throw LimitError(scan + "the hierarchy is deeper than " + std::to_string(settings_.limits.max_depth) +
+                       " ([limits] max_depth)");
+    }
+  }
 }
 
 void MapRun::integrate(const ObjectMotion& motion, std::uint64_t scan) {

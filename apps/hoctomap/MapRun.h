@@ -36,6 +36,7 @@ class MapRun {
  private:
   void integrate(const Measurement& z, double read_seconds);
   void integrate(const ObjectMotion& motion, std::uint64_t scan);
+  void checkLimits(const UpdateReport& report) const;
   void applyToldMotions(const Measurement& z);
   void finishScan(std::uint64_t scan);
   void commit(bool keep);

@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include "TableLogs.h"
+#include "support/SharedData.h"
 
 namespace hoctomap {
 namespace {
@@ -85,6 +86,7 @@ TEST(Simulate, IsReproducibleAndStockToolsReadItsLog) {
   test::simulate("demo", folder / "b.rawlog");
   EXPECT_EQ(test::readFile(folder / "a.rawlog"), test::readFile(folder / "b.rawlog"));
   EXPECT_EQ(test::readTree(folder / "a.truth"), test::readTree(folder / "b.truth"));
+  EXPECT_EQ(test::readFile(folder / "a.rawlog"), test::readFile(test::sourceDir() / "rawlogs/demo.rawlog"));
   const auto stock = test::runProgram("rawlog-edit", {"--info", "-i", folder / "a.rawlog"});
   if (stock.exit_code == 127) GTEST_SKIP() << "rawlog-edit (package mrpt-apps) is not installed";
   EXPECT_NE(stock.out.find("Overall number of objects         : 12"), std::string::npos) << stock.out;

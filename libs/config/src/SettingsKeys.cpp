@@ -58,9 +58,6 @@ constexpr auto settings_keys = std::to_array<Key<Settings>>({
     {"mapping", "checkpoint_scans", "scans", count,
      "The map is committed to disk after every so many scans; a killed run loses no more",
      &at<&S::checkpoint_scans>},
-    {"mapping", "confirm_scans", "scans", within(1, 1000),
-     "Scans that must show a new node before it enters the map; 1: it enters at once",
-     &at<&S::confirm_scans>},
 
     {"poses", "max_gap", "s", within(0, 3600),
      "Largest time between two poses of the log that is interpolated over; scans in longer gaps are skipped",

@@ -36,6 +36,12 @@ std::string where(const StreamPosition& position, const std::vector<std::filesys
   return log + ", object " + std::to_string(position.object) + " at byte " + std::to_string(position.offset);
 }
 
+StreamLimits limitsOf(const LogReadOptions& options) {
+  StreamLimits limits;
+  limits.max_points = options.max_points;
+  return limits;
+}
+
 }  // namespace
 
 PipeSource::PipeSource(const LogReadOptions& options, const RangeLimits& limits, WarningSink warn)
@@ -46,7 +52,7 @@ PipeSource::PipeSource(const LogReadOptions& options, const RangeLimits& limits,
               .arguments = toArguments(options),
               .input = ChildProcess::Stream::null,
               .output = ChildProcess::Stream::pipe}),
-      reader_(child_.outputFd()) {
+      reader_(child_.outputFd(), limitsOf(options)) {
   for (bool header_seen = false; !header_seen;) {
     StreamMessage message = receive();
     if (auto* warning = std::get_if<StreamWarning>(&message)) {

@@ -47,7 +47,6 @@ struct Settings {
   bool monolithic = false;          ///< S(z) = {z}, one map, beams unbounded
   double association_margin = 0.0;  ///< m, by which boxes are grown in f_A
   int checkpoint_scans = 10;        ///< scans between two commits to disk
-  int confirm_scans = 1;            ///< scans that must show a new node before it enters the map
   PosesConfig poses;
   SensorConfig sensor;
   SegmentationMethod method = SegmentationMethod::euclidean;

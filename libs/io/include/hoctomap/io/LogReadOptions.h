@@ -35,6 +35,7 @@ struct LogReadOptions {
   std::uint64_t max_inflated_bytes = std::uint64_t{8} << 30;  ///< of each log
   double max_ratio = 100.0;                                   ///< inflated to compressed ...
   std::uint64_t ratio_free_bytes = std::uint64_t{64} << 20;   ///< ... beyond this many inflated bytes
+  std::uint64_t max_points = 10'000'000;  ///< of a scan; checked by this program, not by the helper
   std::uint64_t max_object_bytes = std::uint64_t{1} << 30;
   std::uint64_t address_space_bytes = std::uint64_t{4} << 30;  ///< of the reading process
 };
