@@ -113,6 +113,13 @@ constexpr auto settings_keys = std::to_array<Key<Settings>>({
     {"segmentation", "contact_height", "m", within(0, 10),
      "Height above the table at which an object must begin; what begins higher is background",
      &at<&S::tabletop, &T::contact_height>},
+    {"segmentation",
+     "attach_strays",
+     "",
+     {},
+     "Points over a table that are in no cluster go to the object or table they lie on; false: to the "
+     "background",
+     &at<&S::tabletop, &T::attach_strays>},
 
     {"existence", "pose_shift", "m", within(0, 1),
      "Largest sideways error of the pose of a node or scan that is searched out; 0.006 for a fixed camera, "

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "hoctomap/tabletop/TabletopSegmentation.h"
 
+#include "Strays.h"
 #include "hoctomap/tabletop/StandingObjects.h"
 #include "hoctomap/tabletop/TableSearch.h"
 
@@ -29,6 +30,7 @@ Segment remainderOf(const Measurement& z, const std::vector<TableSurface>& table
 std::vector<Segment> TabletopSegmentation::segment(const Measurement& z) const {
   auto tables = findTables(z, config_);
   auto objects = findStandingObjects(z, tables, config_);
+  if (config_.attach_strays) attachStrays(z, tables, objects, config_);
 
   std::vector<Segment> segments;  // Eq. (9): z_bg, z_table,1 .. z_table,n, z_obj,1 .. z_obj,m
   if (auto rest = remainderOf(z, tables, objects); !rest.points.empty()) segments.push_back(std::move(rest));

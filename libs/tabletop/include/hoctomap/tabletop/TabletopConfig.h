@@ -30,6 +30,10 @@ struct TabletopSegmentationConfig {
       0.025;                     ///< m; where the noise (three sigma) is larger, objects are not told apart
   double contact_height = 0.03;  ///< m above the table at which an object must begin
 
+  /// Whether points over a table that are in no cluster go to the object or table they lie on; otherwise, as
+  /// in the paper, to the background.
+  bool attach_strays = true;
+
   /// 1/m: the standard deviation of a range r is `range_noise` r^2. 0.0015 is a structured-light camera.
   double range_noise = 0.0015;
 
