@@ -17,5 +17,5 @@ echo "== a log of a simulated scene"
 "$hoctomap" simulate -q -c configs/scenes/demo.ini -o "$out/demo.rawlog"
 echo "== the map of this log"
 "$hoctomap" build -q -i "$out/demo.rawlog" -o "$out/map"
-"$hoctomap" render "$out/map" -o "$out/map.png"
+"$hoctomap" render "$out/map" -o "$out/map.png" --view right
 echo "picture    $out/map.png"

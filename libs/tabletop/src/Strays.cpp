@@ -67,11 +67,11 @@ void attachStrays(const Measurement& z, std::vector<TableSurface>& tables, std::
       if (height < -flat || height > config.object_height_max) continue;
       const auto cell = table.grid.cellOf(p.x(), p.y());
       if (cell >= table.grid.size() || !table.extent[cell]) continue;
-      if (const auto object =
-              nearestObject(tree, cloud, z.world_points[i], static_cast<float>(config.cluster_tolerance))) {
-        objects[*object].push_back(i);
-      } else if (std::abs(height) <= flat) {
+      if (std::abs(height) <= flat) {
         table.points.push_back(i);
+      } else if (const auto object = nearestObject(tree, cloud, z.world_points[i],
+                                                   static_cast<float>(config.cluster_tolerance))) {
+        objects[*object].push_back(i);
       } else {
         continue;
       }

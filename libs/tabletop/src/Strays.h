@@ -8,9 +8,9 @@
 
 namespace hoctomap {
 
-/// Gives points over a table that belong to nothing yet to what they lie on: within the cluster tolerance of
-/// an object's point to that object (rims and edges that were left out of clustering so that they tie nothing
-/// together), otherwise up to the height of paper to the table. In the background, whose voxels are coarse,
+/// Gives points over a table that belong to nothing yet to what they lie on: up to the height of paper to the
+/// table, otherwise within the cluster tolerance of an object's point to that object (rims and edges, which
+/// are left out of clustering so that they tie nothing together). In the background, whose voxels are coarse,
 /// they would bury the objects (docs/decisions/0007).
 void attachStrays(const Measurement& z, std::vector<TableSurface>& tables, std::vector<PointIndices>& objects,
                   const TabletopSegmentationConfig& config);
