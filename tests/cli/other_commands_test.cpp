@@ -106,12 +106,13 @@ TEST(StockTools, OpenTheMap) {
     EXPECT_EQ(test::readFile(folder / "copy.bt"), test::readFile(folder / "map/" + node.bt.path));
   }
   const auto yaml = test::runProgram(
-      "python3", {"-c",
-                  "import sys,yaml; m=yaml.safe_load(open(sys.argv[1])); "
-                  "assert all(isinstance(n['existence'],float) and isinstance(n['resolution'],float) and "
-                  "isinstance(n['world_pose'],str) and len(n['pose_matrix'])==16 for n in m['nodes']); "
-                  "print(len(m['nodes']))",
-                  folder / "map/hierarchy.yaml"});
+      "/usr/bin/python3",
+      {"-c",
+       "import sys,yaml; m=yaml.safe_load(open(sys.argv[1])); "
+       "assert all(isinstance(n['existence'],float) and isinstance(n['resolution'],float) and "
+       "isinstance(n['world_pose'],str) and len(n['pose_matrix'])==16 for n in m['nodes']); "
+       "print(len(m['nodes']))",
+       folder / "map/hierarchy.yaml"});
   if (yaml.err.find("No module named") != std::string::npos) GTEST_SKIP() << "python3 has no yaml module";
   EXPECT_EQ(yaml.exit_code, 0) << yaml.err;
   EXPECT_EQ(yaml.out, "5\n");

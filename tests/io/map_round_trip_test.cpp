@@ -129,7 +129,8 @@ TEST_F(MapRoundTrip, StockOctomapReadsEveryFile) {
 }
 
 TEST_F(MapRoundTrip, AnotherYamlReaderTakesNumbersAsNumbers) {
-  if (std::system("python3 -c 'import yaml' 2>/dev/null") != 0) GTEST_SKIP() << "PyYAML is not installed";
+  if (std::system("/usr/bin/python3 -c 'import yaml' 2>/dev/null") != 0)
+    GTEST_SKIP() << "PyYAML is not installed";
   hierarchy_.node(NodeId{1}).existence_log_odds = -11.6;  // an existence that is printed with an exponent
   hierarchy_.move(NodeId{1}, Pose(1e-7, 0.0, 0.0, 0.0, 0.0, 0.0));
   write(hierarchy_, {}, "map");
@@ -147,8 +148,8 @@ for n in m['nodes']:
 assert 0.0 < m['nodes'][[n['id'] for n in m['nodes']].index(1)]['existence'] < 1e-4
 )";
   test::writeText(folder_.path() / "check.py", script);
-  const std::string command =
-      "python3 " + (folder_.path() / "check.py").string() + " " + (map() / "hierarchy.yaml").string();
+  const std::string command = "/usr/bin/python3 " + (folder_.path() / "check.py").string() + " " +
+                              (map() / "hierarchy.yaml").string();
   EXPECT_EQ(std::system(command.c_str()), 0);
 }
 
