@@ -73,6 +73,31 @@ TEST(NodeMap, CountsAndListsVoxelsAtItsResolution) {
   EXPECT_TRUE(map.occupiedBox().max().isApprox(Eigen::Vector3d::Constant(0.8), 1e-6));
 }
 
+TEST(NodeMap, AbsorbAddsWhatIsOccupiedAndTakesWhatIsUnknown) {
+  NodeMap map = mapOf({{0.05F, 0.05F, 0.05F}}, 0.1);
+  const NodeMap other = mapOf({{0.05F, 0.05F, 0.05F}, {0.05F, 0.95F, 0.05F}}, 0.1);
+  const auto at = [&map](double x, double y, double z) { return map.tree().search(x, y, z); };
+  const float hit = map.tree().getProbHitLog();
+  ASSERT_EQ(at(0.05, 0.95, 0.05), nullptr);
+  const octomap::OcTree before(map.tree());
+  map.absorb(other, Eigen::Isometry3d::Identity());
+  EXPECT_FLOAT_EQ(at(0.05, 0.05, 0.05)->getLogOdds(), 2 * hit) << "both know it occupied";
+  EXPECT_FLOAT_EQ(at(0.05, 0.95, 0.05)->getLogOdds(), hit) << "only the other knows it";
+  for (auto leaf = before.begin_leafs(); leaf != before.end_leafs(); ++leaf) {
+    if (before.isNodeOccupied(*leaf)) continue;
+    EXPECT_FLOAT_EQ(at(leaf.getX(), leaf.getY(), leaf.getZ())->getLogOdds(), leaf->getLogOdds())
+        << "free voxels that this map knows stay as they are";
+  }
+  EXPECT_NEAR(map.occupiedBox().max().y(), 1.0, 1e-6);
+
+  // A turned source lands where it is, not where its numbers are.
+  NodeMap turned(0.1, {});
+  turned.absorb(other, Eigen::Translation3d(0, 0, 1) *
+                           Eigen::Isometry3d(Eigen::AngleAxisd(M_PI, Eigen::Vector3d::UnitZ())));
+  ASSERT_NE(turned.tree().search(-0.05, -0.95, 1.05), nullptr);
+  EXPECT_TRUE(turned.tree().isNodeOccupied(turned.tree().search(-0.05, -0.95, 1.05)));
+}
+
 TEST(NodeMap, TheBoxForgetsAnOutlierThatIsCleared) {
   NodeMap map = mapOf({{0.05F, 0.05F, 0.05F}, {1.05F, 0.05F, 0.05F}}, 0.1);
   const auto engine = makeReferenceScanUpdate();
