@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <gtest/gtest.h>
+#include <mrpt/containers/yaml.h>
 
 #include "TableLogs.h"
 #include "support/SharedData.h"
@@ -116,6 +117,30 @@ TEST(StockTools, OpenTheMap) {
   if (yaml.err.find("No module named") != std::string::npos) GTEST_SKIP() << "python3 has no yaml module";
   EXPECT_EQ(yaml.exit_code, 0) << yaml.err;
   EXPECT_EQ(yaml.out, "5\n");
+}
+
+TEST(StockTools, MrptReadsTheManifest) {
+  const TemporaryFolder folder;
+  test::simulate("demo", folder / "a.rawlog");
+  test::build(folder / "a.rawlog", folder / "map");
+  const Manifest expected = readManifest(folder / "map");
+  const auto yaml = mrpt::containers::yaml::FromFile(folder / "map/hierarchy.yaml");
+  EXPECT_EQ(yaml["format_version"].as<int>(), 1);
+  const auto& nodes = yaml["nodes"].asSequence();
+  ASSERT_EQ(nodes.size(), expected.nodes.size());
+  for (std::size_t i = 0; i < nodes.size(); ++i) {
+    mrpt::containers::yaml node(nodes[i]);
+    const NodeRecord& record = expected.nodes[i];
+    EXPECT_EQ(node["id"].as<std::uint32_t>(), record.id.value);
+    EXPECT_EQ(node["label"].as<std::string>(), record.label.name);
+    EXPECT_EQ(node["resolution"].as<double>(), record.resolution);
+    EXPECT_EQ(node["existence"].as<double>(), record.existence);
+    EXPECT_EQ(node["files"]["ot"]["sha256"].as<std::string>(), record.ot.sha256);
+    mrpt::poses::CPose3D pose;
+    pose.fromString(node["world_pose"].as<std::string>());
+    EXPECT_LT((record.world_T_node - pose).norm(), 1e-9);
+    EXPECT_LT((toIsometry(pose).linear() - toIsometry(record.world_T_node).linear()).norm(), 1e-9);
+  }
 }
 
 TEST(Example, AnOwnRelationMakesItsTree) {
