@@ -4,144 +4,13 @@
 #include <gtest/gtest.h>
 #include <tbb/global_control.h>
 
-#include <numeric>
-#include <sstream>
-
+#include "ScriptedMapper.h"
 #include "hoctomap/geometry/Errors.h"
-#include "support/RandomScenes.h"
 
 namespace hoctomap {
 namespace {
 
-/// A piece of a scan whose structure is known: the segmentation of these tests reads it off.
-struct Piece {
-  Structure structure;
-  PointCloud points;
-};
-
-/// A scan made of pieces, and the segmentation that takes it apart again.
-struct Scan {
-  Measurement z;
-  std::vector<Segment> segments;
-
-  Scan(std::uint64_t number, const std::vector<Piece>& pieces, const Eigen::Vector3d& origin = {0, 0, 2}) {
-    z.scan = number;
-    z.stamp = 100.0 + static_cast<double>(number);
-    z.world_T_sensor = Pose(origin.x(), origin.y(), origin.z(), 0, 0, 0);
-    for (const Piece& piece : pieces) {
-      Segment segment;
-      segment.structure = piece.structure;
-      segment.points.resize(piece.points.size());
-      std::iota(segment.points.begin(), segment.points.end(),
-                static_cast<std::uint32_t>(z.world_points.size()));
-      z.world_points.insert(z.world_points.end(), piece.points.begin(), piece.points.end());
-      segments.push_back(std::move(segment));
-    }
-  }
-};
-
-/// Evidence that the test dictates, by node.
-class DictatedEvidence : public InverseExistenceModel {
- public:
-  explicit DictatedEvidence(std::shared_ptr<std::map<NodeId, Evidence>> by_node)
-      : by_node_(std::move(by_node)) {}
-  [[nodiscard]] std::vector<Evidence> evidence(const MapHierarchy&, const Measurement&,
-                                               const std::vector<NodeId>& nodes,
-                                               const std::vector<ExistenceParameters>&) const override {
-    std::vector<Evidence> result;
-    for (const NodeId id : nodes) result.push_back((*by_node_)[id]);
-    return result;
-  }
-
- private:
-  std::shared_ptr<std::map<NodeId, Evidence>> by_node_;
-};
-
-LabelProfiles profiles() {
-  LabelProfiles p;
-  p[labels::background].resolution = 0.1;
-  p[labels::background].frame = FrameChoice::world;
-  p[labels::table].resolution = 0.05;
-  p[labels::object].resolution = 0.01;
-  return p;
-}
-
-/// A mapper with the paper's labels and relation, boxes for association, and whatever segmentation the scan
-/// has.
-struct Mapper {
-  std::shared_ptr<const Scan*> current = std::make_shared<const Scan*>(nullptr);
-  std::shared_ptr<std::map<NodeId, Evidence>> evidence = std::make_shared<std::map<NodeId, Evidence>>();
-  HierarchyMapper mapper{MappingConfig{}, profiles(), strategies()};
-
-  MappingStrategies strategies() {
-    MappingStrategies s;
-    s.segmentation =
-        makeSegmentation([current = current](const Measurement&) { return (*current)->segments; });
-    s.labeling = makeLabeling([](const Measurement&, const Segment& segment) {
-      return segment.structure == Structure::plane     ? labels::table
-             : segment.structure == Structure::cluster ? labels::object
-                                                       : labels::background;
-    });
-    s.association = makeAssociation([](const MapHierarchy& h, const LabelledSegment& segment,
-                                       const Admissible& admissible) -> std::optional<NodeId> {
-      for (const NodeId id : h.ids()) {
-        if (h.node(id).label() == segment.label && admissible(id) && intersects(h.box(id), segment.box))
-          return id;
-      }
-      return std::nullopt;
-    });
-    s.relations.add(makeRelation("supports", [](const NodeView& a, const NodeView& b) {
-      return (a.label == labels::background && b.label != labels::background) ||
-             (a.label == labels::table && b.label == labels::object);
-    }));
-    s.existence = std::make_unique<DictatedEvidence>(evidence);
-    return s;
-  }
-
-  UpdateReport integrate(const Scan& scan) {
-    *current = &scan;
-    return mapper.integrate(scan.z);
-  }
-  [[nodiscard]] const MapHierarchy& h() const { return mapper.hierarchy(); }
-};
-
-PointCloud patch(double x, double y, double z, double half_x, double half_y, double half_z,
-                 std::uint64_t seed = 1) {
-  test::Rng rng(seed);
-  PointCloud points;
-  for (int i = 0; i < 300; ++i) {
-    points.push_back(Eigen::Vector3d(x + test::uniform(rng, -half_x, half_x),
-                                     y + test::uniform(rng, -half_y, half_y),
-                                     z + test::uniform(rng, -half_z, half_z))
-                         .cast<float>());
-  }
-  return points;
-}
-
-const Piece kFloor{Structure::remainder, patch(0, 0, 0, 2, 2, 0.01)};
-const Piece kTable{Structure::plane, patch(0, 0, 0.7, 0.5, 0.4, 0.005)};
-const Piece kCup{Structure::cluster, patch(0.2, 0.1, 0.75, 0.04, 0.03, 0.04)};
-const Piece kBox{Structure::cluster, patch(-0.3, 0.0, 0.78, 0.05, 0.04, 0.07)};
-
-Evidence seen(bool present) {
-  Evidence e;
-  e.present = present ? 100 : 0;
-  e.absent = present ? 0 : 100;
-  e.informative = true;
-  e.p_measurement = present ? 0.9 : 0.1;
-  return e;
-}
-
-std::string otBytes(const NodeMap& map) {
-  std::ostringstream out;
-  map.tree().write(out);
-  return out.str();
-}
-
-std::size_t count(const UpdateReport& report, NodeEventKind kind) {
-  return static_cast<std::size_t>(std::count_if(report.events.begin(), report.events.end(),
-                                                [kind](const auto& e) { return e.kind == kind; }));
-}
+using namespace test;  // the words of ScriptedMapper.h
 
 TEST(HierarchyMapper, OneScanMakesTheTreeOfThePaper) {
   Mapper m;
@@ -312,56 +181,6 @@ TEST(HierarchyMapper, SegmentsOfOneNodeUpdateEachVoxelOnce) {
   whole.integrate(Scan(1, {kFloor, kTable, {Structure::cluster, again}}));
   split.integrate(Scan(1, {kFloor, kTable, {Structure::cluster, first}, {Structure::cluster, second}}));
   EXPECT_EQ(otBytes(whole.h().node(NodeId{2}).map()), otBytes(split.h().node(NodeId{2}).map()));
-}
-
-/// Two clusters side by side, and both as one cluster.
-struct TwoPieces {
-  Piece whole{Structure::cluster, patch(-0.3, 0.0, 0.78, 0.1, 0.05, 0.07)};
-  Piece piece{Structure::cluster, patch(-0.17, 0.0, 0.78, 0.02, 0.02, 0.02)};
-  Piece joined = whole;
-  TwoPieces() { joined.points.insert(joined.points.end(), piece.points.begin(), piece.points.end()); }
-};
-
-TEST(HierarchyMapper, APieceJoinsTheNodeThatViewsShowItToBePartOf) {
-  const TwoPieces p;
-  Mapper m;
-  m.integrate(Scan(0, {kFloor, kTable, p.whole, p.piece}));
-  const NodeId whole{2};
-  const NodeId piece{3};
-  const Eigen::Vector3d at = toIsometry(m.h().world_T_node(piece)).translation();
-  (*m.evidence)[whole] = (*m.evidence)[piece] = seen(true);
-  EXPECT_EQ(count(m.integrate(Scan(1, {kFloor, kTable, p.joined})), NodeEventKind::merged), 0U) << "one view";
-  EXPECT_EQ(count(m.integrate(Scan(2, {kFloor, kTable, p.joined})), NodeEventKind::merged), 1U);
-  EXPECT_FALSE(m.h().contains(piece));
-  ASSERT_EQ(m.mapper.removed().size(), 1U);
-  EXPECT_TRUE(m.h().box(whole).contains(at));
-}
-
-TEST(HierarchyMapper, WhatMostViewsShowApartStaysApart) {
-  const TwoPieces p;
-  // Of like size: a tie of votes must not merge them.
-  const Piece other{Structure::cluster, patch(-0.08, 0.0, 0.78, 0.09, 0.05, 0.07)};
-  Piece joined = p.whole;
-  joined.points.insert(joined.points.end(), other.points.begin(), other.points.end());
-  Mapper m;
-  m.integrate(Scan(0, {kFloor, kTable, p.whole, other}));
-  (*m.evidence)[NodeId{2}] = (*m.evidence)[NodeId{3}] = seen(true);
-  const_cast<MapHierarchy&>(m.h()).node(NodeId{3}).votes = {5, 0, kRootId};
-  for (std::uint64_t k = 1; k <= 5; ++k) m.integrate(Scan(k, {kFloor, kTable, joined}));
-  EXPECT_TRUE(m.h().contains(NodeId{2}));
-  EXPECT_TRUE(m.h().contains(NodeId{3}));
-}
-
-TEST(HierarchyMapper, AHiddenPieceCastsNoVote) {
-  const TwoPieces p;
-  Mapper m;
-  m.integrate(Scan(0, {kFloor, kTable, p.whole, p.piece}));
-  Evidence hidden;
-  hidden.occluded = 100;
-  (*m.evidence)[NodeId{3}] = hidden;
-  for (std::uint64_t k = 1; k < 6; ++k) m.integrate(Scan(k, {kFloor, kTable, p.joined}));
-  EXPECT_TRUE(m.h().contains(NodeId{3}));
-  EXPECT_EQ(m.h().node(NodeId{3}).votes.joined, 0U);
 }
 
 TEST(HierarchyMapper, CarvingByTheWholeScanClearsWhatOwnBeamsDoNot) {
