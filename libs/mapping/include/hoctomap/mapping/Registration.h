@@ -1,0 +1,57 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <Eigen/Geometry>
+#include <functional>
+#include <span>
+
+namespace hoctomap {
+
+/// Whether two sets of points show the same object.
+enum class Match { same, different, ambiguous };
+
+/// What a scan says of a place.
+enum class Sight {
+  surface,      ///< something is there
+  hidden,       ///< out of view, without a return, or behind something
+  seen_through  ///< the beam went on
+};
+
+struct RegistrationConfig {
+  double spacing = 0.004;   ///< m between the points that are compared
+  double near = 0.006;      ///< m, within which two surfaces overlap (grows with the noise: `tolerance`)
+  double tolerance = 0.0;   ///< m, added to `near` and `max_rms`: noise and voxels of the two sets
+  double max_rms = 0.0035;  ///< m, of the overlapping points of one object
+  double max_height_error = 0.012;  ///< m, between the tops of the two
+  double same_overlap = 0.85;       ///< both ways
+  double different_overlap = 0.6;   ///< of `seen` in `model`; below it they differ
+  double least_overlap = 0.45;      ///< of either in the other; below it they differ
+  double max_seen_through = 0.12;   ///< share of the model that the scan may contradict
+  double min_visible = 0.25;        ///< share of the model that the scan must show
+  double rival_score = 0.1;         ///< a pose within it is as good: the smaller turn is kept
+  int yaw_starts = 18;              ///< turns about the vertical that are tried
+};
+
+struct Registration {
+  Match verdict = Match::different;
+  /// World motion that takes `model` onto `seen`: p_after = motion * p_before.
+  Eigen::Isometry3d motion = Eigen::Isometry3d::Identity();
+  double overlap_model = 0.0;  ///< share of the model's visible points near a seen point
+  double overlap_seen = 0.0;   ///< share of the seen points near a point of the model
+  double rms = 0.0;            ///< m, of the overlapping points
+  double seen_through = 0.0;   ///< share of the model's points that the scan contradicts
+  double score = 0.0;          ///< the smaller overlap less what is seen through, in [0, 1]
+};
+
+/// Registers the points of a known object to points that may show it elsewhere (III-D): turns about the
+/// vertical about aligned centroids, trimmed iterated closest points (Chetverikov et al. 2002), the best of
+/// them refined in six degrees of freedom. Points of the model that the scan cannot show at the new place do
+/// not count.
+/// @param model_world  surface points of the object where it was, m
+/// @param seen_world   points that the scan shows, m
+/// @param sight        what the scan says of a place (world); null: everything is visible
+[[nodiscard]] Registration registerPoints(
+    std::span<const Eigen::Vector3f> model_world, std::span<const Eigen::Vector3f> seen_world,
+    const RegistrationConfig& config, const std::function<Sight(const Eigen::Vector3f&)>& sight = nullptr);
+
+}  // namespace hoctomap
