@@ -68,7 +68,7 @@ TEST(HierarchyMapper, MonolithicEqualsStockInsertPointCloud) {
   s.labeling = makeLabeling([](const Measurement&, const Segment&) { return labels::background; });
   s.association =
       makeAssociation([](const auto&, const auto&, const auto&) { return std::optional<NodeId>(); });
-  HierarchyMapper mapper({1.5, false}, profiles(), std::move(s));
+  HierarchyMapper mapper({1.5, false, false, {}}, profiles(), std::move(s));
   octomap::OcTree stock(0.1);
   for (std::uint64_t k = 0; k < 5; ++k) {
     const Eigen::Vector3d origin = test::uniformVector(rng, -0.5, 0.5);

@@ -117,6 +117,13 @@ std::string labelDefaults(const keys::Key<LabelProfile>& key) {
 
 }  // namespace
 
+MappingConfig Settings::mappingConfig() const {
+  MappingConfig config{sensor.max_range, !monolithic, contest_at_surface, {}};
+  config.reidentification.enabled = reidentify && !monolithic;
+  config.reidentification.noise = existence.noise;
+  return config;
+}
+
 Settings::Settings() {
   for (const Label& label : {labels::background, labels::table, labels::object}) {
     labels[label] = keys::defaultProfile(label);

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "RangeBuffer.h"
-#include "RangeView.h"
+#include "hoctomap/existence/RangeView.h"
 #include "hoctomap/existence/BeamExistenceModel.h"
 
 namespace hoctomap {

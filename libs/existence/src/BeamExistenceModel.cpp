@@ -7,7 +7,7 @@
 
 #include "BeamComparison.h"
 #include "RangeBuffer.h"
-#include "RangeView.h"
+#include "hoctomap/existence/RangeView.h"
 
 namespace hoctomap {
 

@@ -4,7 +4,7 @@
 #include <limits>
 #include <vector>
 
-#include "RangeView.h"
+#include "hoctomap/existence/RangeView.h"
 
 namespace hoctomap {
 

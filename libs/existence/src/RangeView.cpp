@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "RangeView.h"
+#include "hoctomap/existence/RangeView.h"
 
 #include <algorithm>
 #include <cmath>

@@ -8,6 +8,8 @@
 #include <chrono>
 #include <utility>
 
+#include "ContestedNodes.h"
+#include "MovedObjects.h"
 #include "NodeUpdate.h"
 #include "PieceVoting.h"
 #include "hoctomap/geometry/Errors.h"
@@ -56,13 +58,11 @@ struct HierarchyMapper::LabelledPart {
 };
 
 struct HierarchyMapper::NodeEvidence {
-  std::vector<NodeId> nodes;
-  std::vector<Evidence> evidence;
+  std::map<NodeId, Evidence> by_node;
 
   [[nodiscard]] bool contradicts(NodeId id) const {
-    const auto found = std::lower_bound(nodes.begin(), nodes.end(), id);
-    return found != nodes.end() && *found == id &&
-           evidence[static_cast<std::size_t>(found - nodes.begin())].contradicts();
+    const auto found = by_node.find(id);
+    return found != by_node.end() && found->second.contradicts();
   }
 };
 
@@ -140,19 +140,21 @@ std::vector<HierarchyMapper::LabelledPart> HierarchyMapper::segmentAndLabel(cons
 HierarchyMapper::NodeEvidence HierarchyMapper::gatherEvidence(const Measurement& z) const {
   NodeEvidence gathered;
   if (!strategies_.existence) return gathered;
+  std::vector<NodeId> nodes;
   std::vector<ExistenceParameters> parameters;
   for (const NodeId id : hierarchy_.ids()) {
     const LabelProfile& p = profile(hierarchy_.node(id).label());
     if (id == kRootId || !p.existence_enabled) continue;
-    gathered.nodes.push_back(id);
+    nodes.push_back(id);
     parameters.push_back(p.existence);
   }
-  gathered.evidence = strategies_.existence->evidence(hierarchy_, z, gathered.nodes, parameters);
+  const auto evidence = strategies_.existence->evidence(hierarchy_, z, nodes, parameters);
+  for (std::size_t i = 0; i < nodes.size(); ++i) gathered.by_node[nodes[i]] = evidence[i];
   return gathered;
 }
 
 std::vector<NodeId> HierarchyMapper::associate(const Measurement& z, const std::vector<LabelledPart*>& parts,
-                                               const NodeEvidence& evidence, UpdateReport& report) {
+                                               NodeEvidence& evidence, UpdateReport& report) {
   // A node that this scan contradicts must not swallow what has moved into its box.
   const Admissible admissible = [&evidence](NodeId id) { return !evidence.contradicts(id); };
   std::vector<std::optional<NodeId>> found;
@@ -162,12 +164,46 @@ std::vector<NodeId> HierarchyMapper::associate(const Measurement& z, const std::
     // There is one background, whether or not any of it has been seen.
     if (!found.back() && part->label == hierarchy_.root().label()) found.back() = kRootId;
   }
+  followMovedObjects(z, parts, found, evidence, report);
   std::vector<NodeId> nodes;
   for (std::size_t i = 0; i < parts.size(); ++i) {
     nodes.push_back(found[i] ? *found[i] : createNode(z, *parts[i], report));
     parts[i]->node = nodes.back();
   }
   return nodes;
+}
+
+void HierarchyMapper::followMovedObjects(const Measurement& z, const std::vector<LabelledPart*>& parts,
+                                         std::vector<std::optional<NodeId>>& found, NodeEvidence& evidence,
+                                         UpdateReport& report) {
+  std::vector<SegmentInQuestion> segments;
+  for (std::size_t i = 0; i < parts.size(); ++i) {
+    segments.push_back({parts[i]->label, &parts[i]->world_points, found[i]});
+  }
+  if (config_.contest_at_surface) releaseStrangers(hierarchy_, segments);
+  for (std::size_t i = 0; i < parts.size(); ++i) {
+    if (parts[i]->structure == Structure::cluster) found[i] = segments[i].node;
+  }
+  MovedObjects moved = findMovedObjects(hierarchy_, z, segments, evidence.by_node, config_.reidentification);
+  for (const MovedObject& object : moved.found) {
+    const Eigen::Isometry3d world_T_node = toIsometry(hierarchy_.world_T_node(object.node));
+    // III-D: t_i <- t_i o t, with t in the node's frame.
+    hierarchy_.move(
+        object.node,
+        poseFromMatrix((world_T_node.inverse() * object.registration.motion * world_T_node).matrix()));
+    MapNode& node = hierarchy_.node(object.node);
+    hierarchy_.reparent(object.node, strategies_.relations.deepestAncestor(
+                                         hierarchy_, hierarchy_.view(object.node), &object.node));
+    found[object.segment] = object.node;
+    // The scan shows the node, although not where it was.
+    Evidence& e = evidence.by_node.at(object.node);
+    std::swap(e.present, e.absent);
+    e.p_measurement = profile(node.label()).existence.p_present;
+    report.events.push_back({NodeEventKind::reidentified, node.id(), node.label(), node.existence(),
+                             poseFromMatrix(object.registration.motion.matrix()).asString() + " score " +
+                                 std::to_string(object.registration.score).substr(0, 5)});
+  }
+  report.warnings.insert(report.warnings.end(), moved.ambiguous.begin(), moved.ambiguous.end());
 }
 
 NodeId HierarchyMapper::createNode(const Measurement& z, const LabelledPart& part, UpdateReport& report) {
@@ -239,9 +275,8 @@ void HierarchyMapper::mergePieces(const Measurement& z, const std::vector<Labell
                                   const NodeEvidence& evidence, UpdateReport& report) {
   std::vector<TakenSegment> taken;
   for (const LabelledPart& part : parts) taken.push_back({part.node, &part.world_points});
-  for (std::size_t i = 0; i < evidence.nodes.size(); ++i) {
-    const NodeId piece = evidence.nodes[i];
-    const auto whole = voteOnPiece(hierarchy_, piece, evidence.evidence[i], taken);
+  for (const auto& [piece, e] : evidence.by_node) {
+    const auto whole = voteOnPiece(hierarchy_, piece, e, taken);
     if (!whole) continue;
     MapNode& merged = hierarchy_.node(*whole);
     const Pose world_T_piece = hierarchy_.world_T_node(piece);
@@ -258,19 +293,18 @@ void HierarchyMapper::mergePieces(const Measurement& z, const std::vector<Labell
 
 void HierarchyMapper::applyExistence(const Measurement& z, const NodeEvidence& evidence,
                                      UpdateReport& report) {
-  for (std::size_t i = 0; i < evidence.nodes.size(); ++i) {
-    const Evidence& e = evidence.evidence[i];
-    if (e.present + e.absent + e.occluded == 0 || !hierarchy_.contains(evidence.nodes[i])) {
+  for (const auto& [id, e] : evidence.by_node) {
+    if (e.present + e.absent + e.occluded == 0 || !hierarchy_.contains(id)) {
       continue;  // out of view, or merged just now
     }
-    MapNode& node = hierarchy_.node(evidence.nodes[i]);
+    MapNode& node = hierarchy_.node(id);
     if (e.informative) {
       const ExistenceFilter filter(profile(node.label()).existence);
       node.existence_log_odds = filter.update(node.existence_log_odds, e.p_measurement);
     }
     report.existence.push_back({node.id(), e, node.existence()});
   }
-  for (const NodeId id : evidence.nodes) {
+  for (const auto& [id, e] : evidence.by_node) {
     if (!hierarchy_.contains(id) || !ExistenceFilter::isGone(hierarchy_.node(id).existence_log_odds))
       continue;
     const Pose world_T_node = hierarchy_.world_T_node(id);

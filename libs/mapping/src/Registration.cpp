@@ -94,7 +94,9 @@ class Registrar {
       }
     }
     const Registration polished = judged(refined(best->motion.cast<float>(), 16));
-    return fitsWorse(polished, *best) ? *best : polished;
+    Registration result = fitsWorse(polished, *best) ? *best : polished;
+    result.rest_score = judged(Eigen::Isometry3f::Identity()).score;
+    return result;
   }
 
  private:
@@ -187,6 +189,7 @@ class Registrar {
   [[nodiscard]] Registration judged(const Eigen::Isometry3f& motion) const {
     Registration r;
     r.motion = motion.cast<double>();
+    r.motion.linear() = Eigen::Quaterniond(r.motion.linear()).normalized().toRotationMatrix();
     double squares = 0.0;
     std::size_t pairs = 0;
 

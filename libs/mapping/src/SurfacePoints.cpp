@@ -4,28 +4,27 @@
 #include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <array>
-#include <cmath>
+#include <cstdint>
 #include <limits>
-#include <map>
+#include <utility>
 
 namespace hoctomap {
 
 SurfacePoints::SurfacePoints(std::span<const Eigen::Vector3f> points, float spacing) {
-  struct Sum {
-    Eigen::Vector3f sum = Eigen::Vector3f::Zero();
-    float count = 0.0F;
-  };
-  std::map<std::array<int, 3>, Sum> cells;
-  for (const auto& p : points) {
-    const Eigen::Vector3f cell = p / spacing;
-    auto& c = cells[{static_cast<int>(std::floor(cell.x())), static_cast<int>(std::floor(cell.y())),
-                     static_cast<int>(std::floor(cell.z()))}];
-    c.sum += p;
-    c.count += 1.0F;
+  using Cell = std::array<std::int32_t, 3>;
+  std::vector<std::pair<Cell, std::uint32_t>> cells;
+  cells.reserve(points.size());
+  for (std::uint32_t i = 0; i < points.size(); ++i) {
+    const Eigen::Array3i cell = (points[i] / spacing).array().floor().cast<int>();
+    cells.push_back({{cell.x(), cell.y(), cell.z()}, i});
   }
+  std::sort(cells.begin(), cells.end());
   highest_ = -std::numeric_limits<float>::infinity();
-  for (const auto& [key, cell] : cells) {
-    points_.push_back(cell.sum / cell.count);
+  for (auto it = cells.begin(); it != cells.end();) {
+    Eigen::Vector3f sum = Eigen::Vector3f::Zero();
+    const auto first = it;
+    for (; it != cells.end() && it->first == first->first; ++it) sum += points[it->second];
+    points_.push_back(sum / static_cast<float>(it - first));
     centroid_ += points_.back();
     highest_ = std::max(highest_, points_.back().z());
   }

@@ -17,6 +17,8 @@ std::string toString(NodeEventKind kind) {
       return "merged";
     case NodeEventKind::moved:
       return "moved";
+    case NodeEventKind::reidentified:
+      return "reidentified";
   }
   throw std::invalid_argument("no such node event");
 }

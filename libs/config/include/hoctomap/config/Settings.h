@@ -46,6 +46,8 @@ struct Settings {
 
   bool monolithic = false;          ///< S(z) = {z}, one map, beams unbounded
   double association_margin = 0.0;  ///< m, by which boxes are grown in f_A
+  bool contest_at_surface = true;   ///< of several segments in a node's box, those at its surface join it
+  bool reidentify = true;           ///< moved objects are found by registration
   int checkpoint_scans = 10;        ///< scans between two commits to disk
   PosesConfig poses;
   SensorConfig sensor;
@@ -55,7 +57,7 @@ struct Settings {
   Limits limits;
   LabelProfiles labels;
 
-  [[nodiscard]] MappingConfig mappingConfig() const { return {sensor.max_range, !monolithic}; }
+  [[nodiscard]] MappingConfig mappingConfig() const;
 };
 
 /// Settings from an INI file, or from the built-in `tabletop.ini` if there is none. `overrides` are

@@ -12,6 +12,7 @@
 #include "hoctomap/mapping/LabelProfile.h"
 #include "hoctomap/mapping/LabelingFunction.h"
 #include "hoctomap/mapping/MeasurementSource.h"
+#include "hoctomap/mapping/Reidentification.h"
 #include "hoctomap/mapping/Segmentation.h"
 #include "hoctomap/mapping/UpdateReport.h"
 
@@ -30,6 +31,8 @@ struct MappingStrategies {
 struct MappingConfig {
   double max_range = -1.0;  ///< m, of the sensor; negative: no limit
   bool bounded = true;      ///< clip beams to the node's box (IV-B); false only for the monolithic map
+  bool contest_at_surface = false;  ///< of several segments in a node's box, those at its surface join it
+  ReidentificationConfig reidentification;
 };
 
 /// Builds a hierarchy from measurements: the map update of Section III-C.
@@ -60,7 +63,10 @@ class HierarchyMapper {
   std::vector<LabelledPart> segmentAndLabel(const Measurement& z) const;
   NodeEvidence gatherEvidence(const Measurement& z) const;
   std::vector<NodeId> associate(const Measurement& z, const std::vector<LabelledPart*>& parts,
-                                const NodeEvidence& evidence, UpdateReport& report);
+                                NodeEvidence& evidence, UpdateReport& report);
+  void followMovedObjects(const Measurement& z, const std::vector<LabelledPart*>& parts,
+                          std::vector<std::optional<NodeId>>& found, NodeEvidence& evidence,
+                          UpdateReport& report);
   NodeId createNode(const Measurement& z, const LabelledPart& part, UpdateReport& report);
   void updateMaps(const Measurement& z, const std::vector<LabelledPart*>& parts,
                   const std::vector<NodeId>& nodes, UpdateReport& report);

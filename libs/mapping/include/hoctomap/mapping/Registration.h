@@ -40,7 +40,8 @@ struct Registration {
   double overlap_seen = 0.0;   ///< share of the seen points near a point of the model
   double rms = 0.0;            ///< m, of the overlapping points
   double seen_through = 0.0;   ///< share of the model's points that the scan contradicts
-  double score = 0.0;          ///< the smaller overlap less what is seen through, in [0, 1]
+  double rest_score = 0.0;     ///< the score without any motion
+  double score = 0.0;          ///< the smaller of the two overlaps
 };
 
 /// Registers the points of a known object to points that may show it elsewhere (III-D): turns about the

@@ -1,0 +1,165 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "MovedObjects.h"
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+
+#include "hoctomap/existence/RangeView.h"
+
+namespace hoctomap {
+
+namespace {
+
+/// A node that the scan supports less than it should.
+struct DoubtfulNode {
+  NodeId id;
+  bool contradicted = false;
+  PointCloud world_voxels;
+};
+
+double presentShare(const Evidence& e) {
+  return static_cast<double>(e.present) / std::max(1.0, static_cast<double>(e.present + e.absent));
+}
+
+std::vector<DoubtfulNode> doubtfulNodes(const MapHierarchy& hierarchy,
+                                        const std::map<NodeId, Evidence>& support, double most_present) {
+  std::vector<DoubtfulNode> doubtful;
+  for (const auto& [id, evidence] : support) {
+    if (!evidence.informative || presentShare(evidence) >= most_present) continue;
+    DoubtfulNode node{id, evidence.contradicts(), {}};
+    const Eigen::Isometry3f world_T_node = toIsometry(hierarchy.world_T_node(id)).cast<float>();
+    for (const auto& voxel : hierarchy.node(id).map().occupiedVoxels()) {
+      node.world_voxels.push_back(world_T_node * voxel);
+    }
+    doubtful.push_back(std::move(node));
+  }
+  return doubtful;
+}
+
+/// What a scan says of places: only a range image shows more than its own points.
+std::function<Sight(const Eigen::Vector3f&)> sightOf(const Measurement& z, const RangeView& view,
+                                                     const ReidentificationConfig& config) {
+  if (!z.image) return nullptr;
+  return [&view, &config](const Eigen::Vector3f& p) {
+    const auto pixel = view.project(p);
+    if (!pixel) return Sight::hidden;
+    const float measured =
+        view.measured(static_cast<int>(std::lround(pixel->u)), static_cast<int>(std::lround(pixel->v)));
+    const auto range = static_cast<double>(pixel->range);
+    const auto tolerance = static_cast<float>(config.registration.near + 3.0 * config.noise.sigma(range));
+    if (measured == 0.0F || measured < pixel->range - tolerance) return Sight::hidden;
+    return measured > pixel->range + tolerance ? Sight::seen_through : Sight::surface;
+  };
+}
+
+struct Fit {
+  std::size_t node = 0;  ///< index of the doubtful node
+  std::size_t segment = 0;
+  Registration registration;
+};
+
+/// Whether another fit of the same node or the same segment is as good.
+bool hasRival(const Fit& fit, const std::vector<Fit>& fits, double margin) {
+  return std::any_of(fits.begin(), fits.end(), [&](const Fit& other) {
+    const bool shares = (other.node == fit.node) != (other.segment == fit.segment);
+    return shares && other.registration.score > fit.registration.score - margin;
+  });
+}
+
+class Finder {
+ public:
+  Finder(const MapHierarchy& hierarchy, const Measurement& z, const ReidentificationConfig& config)
+      : hierarchy_(hierarchy), z_(z), config_(config), view_(z), sight_(sightOf(z, view_, config)) {}
+
+  [[nodiscard]] MovedObjects find(std::span<const SegmentInQuestion> segments,
+                                  const std::vector<DoubtfulNode>& doubtful) const {
+    MovedObjects result;
+    std::vector<Fit> fits;
+    for (std::size_t n = 0; n < doubtful.size(); ++n) {
+      for (std::size_t s = 0; s < segments.size(); ++s) {
+        if (!isInQuestion(doubtful[n], segments[s], segments)) continue;
+        const Registration r = registered(doubtful[n], segments[s]);
+        if (r.verdict == Match::same && hasMoved(r, doubtful[n], segments[s])) {
+          fits.push_back({n, s, r});
+        } else if (r.verdict == Match::ambiguous && !segments[s].node) {
+          result.ambiguous.push_back(sentence(doubtful[n], segments[s], "may be", r));
+        }
+      }
+    }
+    for (const Fit& fit : fits) {
+      if (hasRival(fit, fits, config_.rival_score)) {
+        result.ambiguous.push_back(sentence(doubtful[fit.node], segments[fit.segment],
+                                            "is one of several that may be", fit.registration));
+      } else if (isBest(fit, fits)) {
+        result.found.push_back({doubtful[fit.node].id, fit.segment, fit.registration});
+      }
+    }
+    return result;
+  }
+
+ private:
+  /// New segments, and the only segment in the node's own box: objects often move within it.
+  [[nodiscard]] bool isInQuestion(const DoubtfulNode& node, const SegmentInQuestion& segment,
+                                  std::span<const SegmentInQuestion> segments) const {
+    if (segment.label != hierarchy_.node(node.id).label()) return false;
+    if (segment.node) return *segment.node == node.id;
+    return node.contradicted ||
+           std::none_of(segments.begin(), segments.end(), [&](const auto& s) { return s.node == node.id; });
+  }
+
+  [[nodiscard]] Registration registered(const DoubtfulNode& node, const SegmentInQuestion& segment) const {
+    RegistrationConfig config = config_.registration;
+    const double range =
+        (segment.world_points->front().cast<double>() - z_.origin()).norm();  // all points are about as far
+    // Half a voxel, and what the noise has more than that of a camera at a metre.
+    config.tolerance = 0.5 * hierarchy_.node(node.id).map().resolution() +
+                       std::max(0.0, config_.noise.sigma(range) - 0.0015);
+    return registerPoints(node.world_voxels, *segment.world_points, config, sight_);
+  }
+
+  [[nodiscard]] bool hasMoved(const Registration& r, const DoubtfulNode& node,
+                              const SegmentInQuestion& segment) const {
+    const Eigen::Vector3d centre =
+        toIsometry(hierarchy_.world_T_node(node.id)).translation();  // of the first segment's points
+    const double shift = (r.motion * centre - centre).norm();
+    const double turn = Eigen::AngleAxisd(r.motion.rotation()).angle();
+    const double least_shift = std::max(config_.least_shift, hierarchy_.node(node.id).map().resolution());
+    if (shift < least_shift && turn < config_.least_turn) return false;
+    return !segment.node || r.score >= r.rest_score + config_.least_gain;
+  }
+
+  static bool isBest(const Fit& fit, const std::vector<Fit>& fits) {
+    return std::none_of(fits.begin(), fits.end(), [&](const Fit& other) {
+      const bool shares = (other.node == fit.node) != (other.segment == fit.segment);
+      return shares && other.registration.score > fit.registration.score;
+    });
+  }
+
+  [[nodiscard]] static std::string sentence(const DoubtfulNode& node, const SegmentInQuestion& segment,
+                                            const std::string& verb, const Registration& r) {
+    return "a segment of " + std::to_string(segment.world_points->size()) + " points " + verb + " node " +
+           std::to_string(node.id.value) + " (overlap " + std::to_string(r.score).substr(0, 4) +
+           "): not taken for it";
+  }
+
+  const MapHierarchy& hierarchy_;
+  const Measurement& z_;
+  const ReidentificationConfig& config_;
+  RangeView view_;
+  std::function<Sight(const Eigen::Vector3f&)> sight_;
+};
+
+}  // namespace
+
+MovedObjects findMovedObjects(const MapHierarchy& hierarchy, const Measurement& z,
+                              std::span<const SegmentInQuestion> segments,
+                              const std::map<NodeId, Evidence>& support,
+                              const ReidentificationConfig& config) {
+  if (!config.enabled || segments.empty()) return {};
+  const auto doubtful = doubtfulNodes(hierarchy, support, config.most_present);
+  if (doubtful.empty()) return {};
+  return Finder(hierarchy, z, config).find(segments, doubtful);
+}
+
+}  // namespace hoctomap

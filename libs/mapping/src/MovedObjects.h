@@ -1,0 +1,44 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <map>
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "hoctomap/existence/InverseExistenceModel.h"
+#include "hoctomap/hierarchy/MapHierarchy.h"
+#include "hoctomap/mapping/Reidentification.h"
+
+namespace hoctomap {
+
+/// A segment of the scan, and the node it would be associated to by its box.
+struct SegmentInQuestion {
+  Label label;
+  const PointCloud* world_points = nullptr;
+  std::optional<NodeId> node;
+};
+
+/// A segment that shows a node elsewhere than it was mapped.
+struct MovedObject {
+  NodeId node;
+  std::size_t segment = 0;  ///< index
+  Registration registration;
+};
+
+struct MovedObjects {
+  std::vector<MovedObject> found;
+  std::vector<std::string>
+      ambiguous;  ///< one sentence for each segment that could be a node and was not taken
+};
+
+/// Finds the nodes that this scan shows elsewhere (III-D): a node that loses its support is registered to
+/// each segment of its label that is new, or that lies in the node's own box. What fits two is nobody's.
+/// @param support  evidence by node, from the whole scan, before anything of it was integrated
+[[nodiscard]] MovedObjects findMovedObjects(const MapHierarchy& hierarchy, const Measurement& z,
+                                            std::span<const SegmentInQuestion> segments,
+                                            const std::map<NodeId, Evidence>& support,
+                                            const ReidentificationConfig& config);
+
+}  // namespace hoctomap
