@@ -10,7 +10,7 @@ packages=(
   libeigen3-dev libmrpt-poses-dev libmrpt-system-dev libmrpt-containers-dev
   libmrpt-obs-dev libmrpt-maps-dev libmrpt-opengl-dev
   # maps and search
-  liboctomap-dev libnanoflann-dev libtbb-dev
+  liboctomap-dev libnanoflann-dev libtbb-dev libmimalloc-dev
   # command line, configuration, files
   libcli11-dev libsimpleini-dev libyaml-cpp-dev nlohmann-json3-dev libssl-dev libpng-dev zlib1g-dev
   # the simulated sensor
@@ -19,6 +19,8 @@ packages=(
   libegl1 libgl1-mesa-dri
   # tests; octomap-tools, mrpt-apps and python3-yaml open our results
   libgtest-dev octomap-tools mrpt-apps xvfb python3-yaml python3-numpy python3-pil
+  # benchmarks, and plots of the experiments
+  libbenchmark-dev gnuplot-nox
 )
 
 missing=()

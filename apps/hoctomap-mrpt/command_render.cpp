@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include <cstdint>
 #include <memory>
+#include <optional>
 #include <string>
 
 #include "Verb.h"
@@ -32,6 +34,7 @@ void addRenderCommand(CLI::App& app, VerbRun& run) {
   const auto out = std::make_shared<std::string>();
   const auto size = std::make_shared<std::string>();
   const auto options = std::make_shared<RenderOptions>();
+  const auto at_scan = std::make_shared<std::optional<std::uint64_t>>();
   verb->add_option("map", *map, "map directory")->required();
   verb->add_option("-o,--output", *out, "PNG to write")->required();
   verb->add_option("--size", *size, "pixels, WIDTHxHEIGHT")->default_str("1600x1000");
@@ -39,10 +42,11 @@ void addRenderCommand(CLI::App& app, VerbRun& run) {
       ->check(CLI::IsMember(renderViews()))
       ->capture_default_str();
   verb->add_flag("--labels", options->labels, "also boxes and labels of the nodes");
+  verb->add_option("--at-scan", *at_scan, "the map as it was after this scan");
   verb->callback([=, &run] {
     run = [=] {
       if (!size->empty()) parseSize(*size, *options);
-      renderMap(readMap(*map).hierarchy, *options, *out);
+      renderMap(readMap(*map, {.at_scan = *at_scan}).hierarchy, *options, *out);
       return 0;
     };
   });

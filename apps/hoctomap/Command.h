@@ -15,6 +15,8 @@ void addBuildCommand(CLI::App& app, Action& action);
 void addSegmentCommand(CLI::App& app, Action& action);
 void addInfoCommand(CLI::App& app, Action& action);
 void addRenderCommand(CLI::App& app, Action& action);
+void addExplainCommand(CLI::App& app, Action& action);
+void addDiffCommand(CLI::App& app, Action& action);
 void addSimulateCommand(CLI::App& app, Action& action);
 
 /// Adds a subcommand with a help text that ends in examples, one a line.

@@ -29,18 +29,17 @@ MapRun::MapRun(const Settings& settings, HierarchyMapper& mapper, MapDirectory& 
       next_scan_(options_.first_scan) {}
 
 void MapRun::run(PipeSource& source, Progress& progress) {
+  ScanPipeline pipeline(source, mapper_);
   while (StopSignal::requested() == 0) {
-    const auto start = Clock::now();
-    const auto item = source.next();
-    if (!item) break;
-    const double read_seconds = secondsSince(start);
-    summary_.addSeconds("read", read_seconds);
-    if (const auto* z = std::get_if<Measurement>(&*item)) {
-      integrate(*z, read_seconds);
-    } else if (const auto* motion = std::get_if<ObjectMotion>(&*item)) {
+    auto next = pipeline.next();
+    if (!next) break;
+    summary_.addSeconds("read", next->read_seconds);
+    if (const auto* z = std::get_if<Measurement>(&next->item)) {
+      integrate(*z, std::move(*next->prepared), next->read_seconds);
+    } else if (const auto* motion = std::get_if<ObjectMotion>(&next->item)) {
       integrate(*motion, next_scan_);
     } else {
-      const auto& skipped = std::get<SkippedScan>(*item);
+      const auto& skipped = std::get<SkippedScan>(next->item);
       summary_.addSkipped(skipped);
       log_.warn("scans skipped: " + skipped.reason + " (first: scan " + std::to_string(skipped.scan) + ")");
       finishScan(skipped.scan);
@@ -68,9 +67,9 @@ void MapRun::applyToldMotions(const Measurement& z) {
   options_.motions = std::move(later);
 }
 
-void MapRun::integrate(const Measurement& z, double read_seconds) {
+void MapRun::integrate(const Measurement& z, PreparedScan prepared, double read_seconds) {
   applyToldMotions(z);
-  const UpdateReport report = mapper_.integrate(z);
+  const UpdateReport report = mapper_.integrate(z, std::move(prepared));
   summary_.addUsed(z);
   summary_.addReport(report);
   directory_.append(report);

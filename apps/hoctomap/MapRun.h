@@ -11,6 +11,7 @@
 #include "hoctomap/io/MotionFile.h"
 #include "hoctomap/io/PipeSource.h"
 #include "hoctomap/mapping/HierarchyMapper.h"
+#include "hoctomap/mapping/ScanPipeline.h"
 
 namespace hoctomap {
 
@@ -34,7 +35,7 @@ class MapRun {
   [[nodiscard]] const RunSummary& summary() const { return summary_; }
 
  private:
-  void integrate(const Measurement& z, double read_seconds);
+  void integrate(const Measurement& z, PreparedScan prepared, double read_seconds);
   void integrate(const ObjectMotion& motion, std::uint64_t scan);
   void checkLimits(const UpdateReport& report) const;
   void applyToldMotions(const Measurement& z);

@@ -2,6 +2,7 @@
 #include <iostream>
 #include <memory>
 
+#include "AtScan.h"
 #include "Command.h"
 #include "hoctomap/geometry/Errors.h"
 #include "hoctomap/io/ChildProcess.h"
@@ -15,12 +16,13 @@ namespace {
 struct InfoOptions {
   std::string path;
   bool json = false;
-  std::optional<std::uint64_t> at_scan;
+  AtScan at_scan;
 };
 
 int info(const InfoOptions& options) {
   if (std::filesystem::is_directory(options.path)) {
     const Manifest manifest = readManifest(options.path, options.at_scan);
+    noteOlderState(options.path, manifest, options.at_scan);
     const auto damage = findDamage(options.path, manifest);
     if (!damage.empty()) {
       throw MapError(
@@ -45,8 +47,7 @@ void addInfoCommand(CLI::App& app, Action& action) {
                  {"hoctomap info log.rawlog", "hoctomap info map --json"});
   command->add_option("path", options->path, "a log or a map directory")->type_name("LOG|DIR")->required();
   command->add_flag("--json", options->json, "for programs");
-  command->add_option("--at-scan", options->at_scan, "the map as it was after scan K (of a kept snapshot)")
-      ->type_name("K");
+  addAtScan(*command, options->at_scan);
   command->callback([options, &action] { action = [options] { return info(*options); }; });
 }
 

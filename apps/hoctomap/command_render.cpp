@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <memory>
 
+#include "AtScan.h"
 #include "Command.h"
 #include "hoctomap/io/ChildProcess.h"
 
@@ -13,12 +14,17 @@ struct RenderOptions {
   std::string output;
   std::string size;
   std::string view;
+  AtScan at_scan;
 };
 
 int render(const RenderOptions& options) {
   std::vector<std::string> arguments{"render", options.map, "-o", options.output};
   if (!options.size.empty()) arguments.insert(arguments.end(), {"--size", options.size});
   if (!options.view.empty()) arguments.insert(arguments.end(), {"--view", options.view});
+  if (options.at_scan) {
+    noteOlderState(options.map, readManifest(options.map, options.at_scan), options.at_scan);
+    arguments.insert(arguments.end(), {"--at-scan", std::to_string(*options.at_scan)});
+  }
   return runHelper(arguments);
 }
 
@@ -34,6 +40,7 @@ void addRenderCommand(CLI::App& app, Action& action) {
   command->add_option("--size", options->size, "in pixels")->type_name("WxH");
   command->add_option("--view", options->view, "oblique (default), front, back, left, right or top")
       ->type_name("VIEW");
+  addAtScan(*command, options->at_scan);
   command->callback([options, &action] { action = [options] { return render(*options); }; });
 }
 

@@ -9,7 +9,7 @@ namespace {
 TEST(Help, NamesEveryCommand) {
   const auto outcome = test::hoctomap({"--help"});
   EXPECT_EQ(outcome.exit_code, 0);
-  for (const char* command : {"build", "segment", "info", "render", "simulate"}) {
+  for (const char* command : {"build", "segment", "info", "render", "explain", "diff", "simulate"}) {
     EXPECT_NE(outcome.out.find(command), std::string::npos) << command;
   }
   EXPECT_TRUE(outcome.err.empty());
@@ -30,7 +30,9 @@ TEST(Help, OfACommandNamesItsOptionsAndAnExample) {
       {"segment",
        {"-c", "-i", "-o", "--poses", "--sensor", "--start", "--every", "--max-scans", "--up", "--set"}},
       {"info", {"LOG|DIR", "--json", "--at-scan"}},
-      {"render", {"DIR", "-o", "--size", "--view"}},
+      {"render", {"DIR", "-o", "--size", "--view", "--at-scan"}},
+      {"explain", {"DIR", "NODE", "--plot", "--json", "--at-scan"}},
+      {"diff", {"A", "B", "--transform", "--json", "-o", "--at-scan", "--at-scan-a", "--at-scan-b"}},
       {"simulate", {"-c", "-o", "--set"}}};
   for (const auto& [command, names] : options) {
     const auto outcome = test::hoctomap({command, "--help"});

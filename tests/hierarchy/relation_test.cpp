@@ -91,5 +91,35 @@ TEST(RelationSet, ANodeNeverHangsBelowItself) {
   EXPECT_EQ(r.deepestAncestor(house.h, house.h.view(moved), &moved), house.other_table);
 }
 
+TEST(RelationSet, ARelationOfLabelsHoldsWhereverTheNodesAre) {
+  RelationSet relations;
+  relations.add(makeLabelRelation("supports", [](const Label& above, const Label& below) {
+    return above == labels::table && below == labels::object;
+  }));
+  EXPECT_TRUE(relations.mayHold(labels::table, labels::object));
+  EXPECT_FALSE(relations.mayHold(labels::object, labels::table));
+  EXPECT_TRUE(relations.holds({labels::table, {}, nullptr}, {labels::object, {}, nullptr}));
+  EXPECT_FALSE(relations.holds({labels::object, {}, nullptr}, {labels::table, {}, nullptr}));
+}
+
+TEST(RelationSet, ANewNodeAdoptsWhatItIsTheBetterParentOf) {
+  RelationSet relations;
+  relations.add(makeLabelRelation("supports", [](const Label& above, const Label& below) {
+    return below != labels::background && above != labels::object && above != below;
+  }));
+  MapHierarchy h(labels::background, NodeMap(0.05, {}));
+  const NodeId object = h.add(labels::object, NodeMap(0.05, {}), Pose(), kRootId);
+  const NodeId table = h.add(labels::table, NodeMap(0.05, {}), Pose(), kRootId);
+  EXPECT_TRUE(relations.adopts(h, table, object)) << "it is deeper than the root";
+  EXPECT_FALSE(relations.adopts(h, object, table)) << "they are not related";
+  EXPECT_FALSE(relations.adopts(h, table, kRootId));
+  h.reparent(object, table);
+  EXPECT_FALSE(relations.adopts(h, table, object)) << "it is the parent already";
+  const NodeId other = h.add(labels::table, NodeMap(0.05, {}), Pose(), kRootId);
+  EXPECT_FALSE(relations.adopts(h, other, object)) << "of equals the first stays";
+  relations.setTieBreak([](const NodeView&, const NodeView&, const NodeView&) { return -1; });
+  EXPECT_TRUE(relations.adopts(h, other, object)) << "the tie-break prefers it";
+}
+
 }  // namespace
 }  // namespace hoctomap

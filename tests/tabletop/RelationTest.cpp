@@ -102,5 +102,27 @@ TEST_F(TableChoice, TableWithoutSurfaceIsTheLastChoice) {
   EXPECT_EQ(parentOf(0.0, 0.0, 0.76), real);
 }
 
+TEST_F(TableChoice, TablesElsewhereDoNotMatter) {
+  test::Rng rng(5);
+  for (int trial = 0; trial < 10; ++trial) {
+    hierarchy_ = MapHierarchy(labels::background, NodeMap(0.05, OccupancyModel{}));
+    NodeId own;
+    const int before = static_cast<int>(rng() % 6);
+    for (int i = 0; i < 8; ++i) {
+      if (i == before) own = addTable(-0.5, 0.5, 0.75);
+      const double x = test::uniform(rng, 1.4, 6.0) * (rng() % 2 != 0 ? 1.0 : -1.0);
+      addTable(x - 0.4, x + 0.4, test::uniform(rng, 0.6, 0.9), test::uniform(rng, 0.0, 3.0));
+    }
+    EXPECT_EQ(parentOf(test::uniform(rng, -0.3, 0.3), test::uniform(rng, -0.3, 0.3), 0.76), own);
+  }
+}
+
+TEST_F(TableChoice, FarFromAllIsTheNearestTable) {
+  const NodeId near = addTable(2.0, 3.0, 0.75);
+  const NodeId far = addTable(20.0, 21.0, 0.75);
+  EXPECT_EQ(parentOf(0.0, 0.0, 0.76), near);
+  EXPECT_EQ(parentOf(15.0, 0.0, 0.76), far);
+}
+
 }  // namespace
 }  // namespace hoctomap

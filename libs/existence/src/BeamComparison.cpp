@@ -20,6 +20,43 @@ std::vector<T> strided(const std::vector<T>& all, std::size_t most) {
   return some;
 }
 
+/// Where a rendered node leaves holes: numbers of empty pixels above and to the left of each, so that any
+/// rectangle is counted by four of them.
+class EmptyCount {
+ public:
+  explicit EmptyCount(const RangeBuffer& buffer)
+      : buffer_(buffer), columns_(static_cast<std::size_t>(buffer.u1() - buffer.u0() + 2)) {
+    count_.resize(columns_ * static_cast<std::size_t>(buffer.v1() - buffer.v0() + 2));
+    std::size_t at = columns_;
+    for (int v = buffer.v0(); v <= buffer.v1(); ++v) {
+      std::uint32_t in_row = 0;
+      ++at;
+      for (int u = buffer.u0(); u <= buffer.u1(); ++u, ++at) {
+        in_row += buffer.at(u, v) == RangeBuffer::kEmpty ? 1U : 0U;
+        count_[at] = count_[at - columns_] + in_row;
+      }
+    }
+  }
+
+  /// Whether a pixel at most `k` away along both axes is empty or outside the buffer.
+  [[nodiscard]] bool anyAround(int u, int v, int k) const {
+    if (u - k < buffer_.u0() || v - k < buffer_.v0() || u + k > buffer_.u1() || v + k > buffer_.v1())
+      return true;
+    const auto before = [&](int x, int y) {  // pixels (u0 .. x-1, v0 .. y-1)
+      return count_[static_cast<std::size_t>(y - buffer_.v0()) * columns_ +
+                    static_cast<std::size_t>(x - buffer_.u0())];
+    };
+    return before(u + k + 1, v + k + 1) - before(u - k, v + k + 1) - before(u + k + 1, v - k) +
+               before(u - k, v - k) !=
+           0;
+  }
+
+ private:
+  const RangeBuffer& buffer_;
+  std::size_t columns_;
+  std::vector<std::uint32_t> count_;
+};
+
 }  // namespace
 
 BeamComparison::BeamComparison(const BeamExistenceConfig& config, const RangeView& view,
@@ -29,49 +66,58 @@ BeamComparison::BeamComparison(const BeamExistenceConfig& config, const RangeVie
 }
 
 void BeamComparison::collectBeams(const RangeBuffer& node, const RangeBuffer* support, double resolution) {
-  std::vector<Beam> all;
-  std::vector<bool> informative;
+  struct Pixel {
+    int u;
+    int v;
+    int k;  ///< half width of the neighbourhood
+  };
+  const EmptyCount empty(node);
+  std::vector<Pixel> pixels;
   for (int v = node.v0(); v <= node.v1(); ++v) {
     for (int u = node.u0(); u <= node.u1(); ++u) {
       const float expected = node.at(u, v);
       if (expected == RangeBuffer::kEmpty) continue;
       const int k = std::max(1, static_cast<int>(std::lround(view_.focal() * config_.window / expected)));
-      float nearest = expected;
-      float farthest = expected;
-      for (int y = v - k; y <= v + k; ++y) {
-        for (int x = u - k; x <= u + k; ++x) {
-          nearest = std::min(nearest, node.at(x, y));
-          farthest = std::max(farthest, node.at(x, y));
-        }
-      }
       // At the silhouette mixed pixels and halos say nothing.
-      if (farthest == RangeBuffer::kEmpty) continue;
-      const double tolerance = config_.tolerance + 0.87 * resolution + 3.0 * config_.noise.sigma(expected);
-      const float behind = support == nullptr ? RangeBuffer::kEmpty : support->at(u, v);
-      all.push_back({u, v, expected, nearest, farthest, static_cast<float>(tolerance)});
-      informative.push_back(behind - farthest >= 2.0 * tolerance + config_.pose_depth);
+      if (!empty.anyAround(u, v, k)) pixels.push_back({u, v, k});
     }
   }
-  std::vector<std::size_t> order(all.size());
-  for (std::size_t i = 0; i < order.size(); ++i) order[i] = i;
-  for (const std::size_t i : strided(order, static_cast<std::size_t>(config_.max_beams))) {
-    if (informative[i]) {
-      beams_.push_back(all[i]);
+  for (const auto& [u, v, k] : strided(pixels, static_cast<std::size_t>(config_.max_beams))) {
+    const float expected = node.at(u, v);
+    float nearest = expected;
+    float farthest = expected;
+    for (int y = v - k; y <= v + k; ++y) {
+      for (int x = u - k; x <= u + k; ++x) {
+        nearest = std::min(nearest, node.at(x, y));
+        farthest = std::max(farthest, node.at(x, y));
+      }
+    }
+    const double tolerance = config_.rangeTolerance(resolution, expected);
+    const float behind = support == nullptr ? RangeBuffer::kEmpty : support->at(u, v);
+    if (behind - farthest >= 2.0 * tolerance + config_.pose_depth) {
+      beams_.push_back({u, v, expected, nearest, farthest, static_cast<float>(tolerance)});
     } else {
       ++uninformative_;
     }
   }
 }
 
-BeamComparison::Counts BeamComparison::count(const std::vector<Beam>& beams, const Offset& offset) const {
+void BeamComparison::measure(const std::vector<Beam>& beams, int du, int dv,
+                             std::vector<float>& measured) const {
+  measured.clear();
+  for (const Beam& beam : beams) measured.push_back(view_.measured(beam.u + du, beam.v + dv));
+}
+
+BeamComparison::Counts BeamComparison::count(const std::vector<Beam>& beams,
+                                             const std::vector<float>& measured, float depth) {
   Counts counts;
-  for (const Beam& beam : beams) {
-    const float measured = view_.measured(beam.u + offset.du, beam.v + offset.dv);
-    if (measured == 0.0F) {
+  for (std::size_t i = 0; i < beams.size(); ++i) {
+    const Beam& beam = beams[i];
+    if (measured[i] == 0.0F) {
       ++counts.no_return;  // never free space
       continue;
     }
-    const float range = measured - offset.depth;
+    const float range = measured[i] - depth;
     if (range < beam.nearest - beam.tolerance) {
       ++counts.occluded;
     } else if (range <= beam.farthest + beam.tolerance) {
@@ -83,19 +129,18 @@ BeamComparison::Counts BeamComparison::count(const std::vector<Beam>& beams, con
   return counts;
 }
 
-float BeamComparison::depthOffset(const std::vector<Beam>& beams, int du, int dv) const {
-  std::vector<float> differences;
-  differences.reserve(beams.size());
+float BeamComparison::depthOffset(const std::vector<Beam>& beams, const std::vector<float>& measured,
+                                  std::vector<float>& scratch) const {
+  scratch.clear();
   const auto pose_depth = static_cast<float>(config_.pose_depth);
-  for (const Beam& beam : beams) {
-    const float measured = view_.measured(beam.u + du, beam.v + dv);
-    const float difference = measured - beam.expected;
-    if (measured > 0.0F && std::abs(difference) < pose_depth + beam.tolerance)
-      differences.push_back(difference);
+  for (std::size_t i = 0; i < beams.size(); ++i) {
+    const float difference = measured[i] - beams[i].expected;
+    if (measured[i] > 0.0F && std::abs(difference) < pose_depth + beams[i].tolerance)
+      scratch.push_back(difference);
   }
-  if (differences.empty()) return 0.0F;
-  const auto middle = differences.begin() + static_cast<std::ptrdiff_t>(differences.size() / 2);
-  std::nth_element(differences.begin(), middle, differences.end());
+  if (scratch.empty()) return 0.0F;
+  const auto middle = scratch.begin() + static_cast<std::ptrdiff_t>(scratch.size() / 2);
+  std::nth_element(scratch.begin(), middle, scratch.end());
   return std::clamp(*middle, -pose_depth, pose_depth);
 }
 
@@ -108,11 +153,14 @@ BeamComparison::Offset BeamComparison::bestOffset() const {
 
   Offset best;
   double best_score = -1e9;
+  std::vector<float> measured;
+  std::vector<float> scratch;
   const auto consider = [&](int du, int dv) {
     if (du * du + dv * dv > reach * reach) return;
-    const Offset offset{du, dv, depthOffset(beams, du, dv)};
+    measure(beams, du, dv, measured);
+    const Offset offset{du, dv, depthOffset(beams, measured, scratch)};
     const double share =
-        static_cast<double>(count(beams, offset).present) / static_cast<double>(beams.size());
+        static_cast<double>(count(beams, measured, offset.depth).present) / static_cast<double>(beams.size());
     const double depth = config_.pose_depth > 0.0 ? offset.depth / config_.pose_depth : 0.0;
     const double score = share - 0.05 * ((du * du + dv * dv) / std::max(1.0, reach * reach) + depth * depth);
     if (score > best_score) {
@@ -140,7 +188,10 @@ Evidence BeamComparison::evidence(double share_in_view, const ExistenceParameter
   Evidence e;
   e.p_measurement = parameters.prior;
   if (beams_.empty()) return e;
-  const Counts counts = count(beams_, bestOffset());
+  const Offset offset = bestOffset();
+  std::vector<float> measured;
+  measure(beams_, offset.du, offset.dv, measured);
+  const Counts counts = count(beams_, measured, offset.depth);
   e.present = counts.present;
   e.absent = counts.absent;
   e.occluded = counts.occluded;

@@ -44,8 +44,13 @@ class BeamComparison {
   };
 
   void collectBeams(const RangeBuffer& node, const RangeBuffer* support, double resolution);
-  [[nodiscard]] Counts count(const std::vector<Beam>& beams, const Offset& offset) const;
-  [[nodiscard]] float depthOffset(const std::vector<Beam>& beams, int du, int dv) const;
+  /// Where the beams did end, if the node is off by (du, dv) pixels; 0: no return.
+  void measure(const std::vector<Beam>& beams, int du, int dv, std::vector<float>& measured) const;
+  [[nodiscard]] static Counts count(const std::vector<Beam>& beams, const std::vector<float>& measured,
+                                    float depth);
+  /// @param scratch  reused from call to call
+  [[nodiscard]] float depthOffset(const std::vector<Beam>& beams, const std::vector<float>& measured,
+                                  std::vector<float>& scratch) const;
   [[nodiscard]] Offset bestOffset() const;
 
   const BeamExistenceConfig& config_;

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "hoctomap/existence/BeamExistenceModel.h"
 
+#include <tbb/parallel_for.h>
+
 #include <algorithm>
 #include <cmath>
 #include <optional>
@@ -13,44 +15,79 @@ namespace hoctomap {
 
 namespace {
 
+/// Range beyond which no node can be told from one that is hidden: the farthest return, a pose error and the
+/// tolerance of a voxel there.
+double reachOf(const RangeView& view, const BeamExistenceConfig& config, double resolution) {
+  const double farthest = view.farthest() + config.pose_depth;
+  double reach = farthest;
+  for (int step = 0; step < 4; ++step) reach = farthest + config.rangeTolerance(resolution, reach);
+  return 1.01 * reach;
+}
+
 /// A node as the sensor would see it.
 struct Silhouette {
   RangeBuffer nearest;
-  double share_in_view = 0.0;  ///< of the node's voxels
+  double share_in_view = 0.0;     ///< of the node's voxels
+  double background_range = 0.0;  ///< m; what stands farther behind the node does not matter
 };
 
-/// Renders the node's occupied voxels; nothing if none of them is in view.
-std::optional<Silhouette> render(const MapHierarchy& hierarchy, NodeId id, const RangeView& view) {
-  const NodeMap& map = hierarchy.node(id).map();
-  const Eigen::Isometry3f world_T_node = toIsometry(hierarchy.world_T_node(id)).cast<float>();
+/// The pixels of the node's occupied voxels that are inside the image.
+std::vector<RangeView::Pixel> pixelsOf(const NodeMap& map, const Pose& world_T_node, const RangeView& view) {
+  const Eigen::Isometry3f world_T = toIsometry(world_T_node).cast<float>();
   std::vector<RangeView::Pixel> pixels;
-  Eigen::AlignedBox2f field;
   for (const auto& voxel : map.occupiedVoxels()) {
-    const auto pixel = view.project(world_T_node * voxel);
-    if (!pixel ||
-        !view.contains(static_cast<int>(std::floor(pixel->u)), static_cast<int>(std::floor(pixel->v)))) {
-      continue;
+    const auto pixel = view.project(world_T * voxel);
+    if (pixel &&
+        view.contains(static_cast<int>(std::floor(pixel->u)), static_cast<int>(std::floor(pixel->v)))) {
+      pixels.push_back(*pixel);
     }
-    pixels.push_back(*pixel);
-    field.extend(Eigen::Vector2f(pixel->u, pixel->v));
   }
+  return pixels;
+}
+
+/// Renders the node's occupied voxels; nothing if none of them is in view.
+std::optional<Silhouette> render(const MapHierarchy& hierarchy, NodeId id, const RangeView& view,
+                                 const BeamExistenceConfig& config) {
+  const NodeMap& map = hierarchy.node(id).map();
+  if (!view.mayShow(hierarchy.box(id), reachOf(view, config, map.resolution()))) return std::nullopt;
+  const auto pixels = pixelsOf(map, hierarchy.world_T_node(id), view);
   if (pixels.empty()) return std::nullopt;
+  Eigen::AlignedBox2f field;
+  float farthest = 0.0F;
+  for (const auto& pixel : pixels) {
+    field.extend(Eigen::Vector2f(pixel.u, pixel.v));
+    farthest = std::max(farthest, pixel.range);
+  }
   const int margin = 2;
   Silhouette s{RangeBuffer(std::max(0, static_cast<int>(field.min().x()) - margin),
                            std::max(0, static_cast<int>(field.min().y()) - margin),
                            std::min(view.width() - 1, static_cast<int>(field.max().x()) + margin),
                            std::min(view.height() - 1, static_cast<int>(field.max().y()) + margin)),
-               static_cast<double>(pixels.size()) / static_cast<double>(map.occupiedVoxels().size())};
+               static_cast<double>(pixels.size()) / static_cast<double>(map.occupiedVoxels().size()),
+               farthest + 2.0 * config.rangeTolerance(map.resolution(), farthest) + config.pose_depth};
   for (const auto& pixel : pixels) s.nearest.splat(pixel, view.focal(), static_cast<float>(map.resolution()));
   return s;
 }
 
-/// Renders what stands behind the nodes in question: all nodes that have a child, and the root.
-RangeBuffer renderSupport(const MapHierarchy& hierarchy, const RangeView& view) {
-  RangeBuffer support(0, 0, view.width() - 1, view.height() - 1);
-  for (const NodeId id : hierarchy.ids()) {
+/// What stands behind the nodes in question: all nodes that have a child, and the root, rendered as far as
+/// some silhouette lies before it.
+RangeBuffer renderSupport(const MapHierarchy& hierarchy, const RangeView& view,
+                          const std::vector<std::optional<Silhouette>>& silhouettes) {
+  Eigen::AlignedBox2i field;
+  double range = 0.0;
+  for (const auto& s : silhouettes) {
+    if (!s) continue;
+    field.extend(Eigen::Vector2i(s->nearest.u0(), s->nearest.v0()));
+    field.extend(Eigen::Vector2i(s->nearest.u1(), s->nearest.v1()));
+    range = std::max(range, s->background_range);
+  }
+  RangeBuffer support(field.min().x(), field.min().y(), field.max().x(), field.max().y());
+  const double pixels = 2.0 * range / view.focal();  // that a voxel's square may stick out
+  const Eigen::AlignedBox3d bounds = view.worldBounds(range);
+  for (const NodeId id : hierarchy.idsNear({bounds.min().array() - pixels, bounds.max().array() + pixels})) {
     const MapNode& node = hierarchy.node(id);
     if (id != kRootId && node.children().empty()) continue;
+    if (!view.mayShow(hierarchy.box(id).padded(node.map().resolution() + pixels), range)) continue;
     const Eigen::Isometry3f world_T_node = toIsometry(hierarchy.world_T_node(id)).cast<float>();
     for (const auto& voxel : node.map().occupiedVoxels()) {
       const auto pixel = view.project(world_T_node * voxel);
@@ -62,6 +99,13 @@ RangeBuffer renderSupport(const MapHierarchy& hierarchy, const RangeView& view) 
 
 }  // namespace
 
+Eigen::AlignedBox3d BeamExistenceModel::reach(const Measurement& measurement) const {
+  constexpr double kCoarsest = 1.0;  // m, no node is coarser
+  const RangeView view(measurement);
+  if (view.width() == 0) return {};
+  return view.worldBounds(reachOf(view, config_, kCoarsest));
+}
+
 std::vector<Evidence> BeamExistenceModel::evidence(const MapHierarchy& hierarchy,
                                                    const Measurement& measurement,
                                                    const std::vector<NodeId>& nodes,
@@ -71,17 +115,21 @@ std::vector<Evidence> BeamExistenceModel::evidence(const MapHierarchy& hierarchy
   const RangeView view(measurement);
   if (nodes.empty() || view.width() == 0) return result;
 
-  const RangeBuffer support = renderSupport(hierarchy, view);
-  for (std::size_t i = 0; i < nodes.size(); ++i) {
-    const auto silhouette = render(hierarchy, nodes[i], view);
-    if (!silhouette) continue;
-    const double resolution = hierarchy.node(nodes[i]).map().resolution();
+  std::vector<std::optional<Silhouette>> silhouettes(nodes.size());
+  tbb::parallel_for(std::size_t{0}, nodes.size(),
+                    [&](std::size_t i) { silhouettes[i] = render(hierarchy, nodes[i], view, config_); });
+  if (std::none_of(silhouettes.begin(), silhouettes.end(), [](const auto& s) { return s.has_value(); }))
+    return result;
+  const RangeBuffer support = renderSupport(hierarchy, view, silhouettes);
+  tbb::parallel_for(std::size_t{0}, nodes.size(), [&](std::size_t i) {
+    const auto& silhouette = silhouettes[i];
+    if (!silhouette) return;
+    const MapNode& node = hierarchy.node(nodes[i]);
     // A supporting node must not be its own background.
-    const bool is_support = !hierarchy.node(nodes[i]).children().empty();
-    const BeamComparison comparison(config_, view, silhouette->nearest, is_support ? nullptr : &support,
-                                    resolution);
+    const BeamComparison comparison(config_, view, silhouette->nearest,
+                                    node.children().empty() ? &support : nullptr, node.map().resolution());
     result[i] = comparison.evidence(silhouette->share_in_view, parameters[i]);
-  }
+  });
   return result;
 }
 

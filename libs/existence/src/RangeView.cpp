@@ -39,6 +39,7 @@ RangeView::RangeView(const Measurement& z)
   cx_ = static_cast<float>(camera.cx);
   cy_ = static_cast<float>(camera.cy);
   range_ = z.image->depth;
+  for (const float range : range_) farthest_ = std::max(farthest_, range);
 }
 
 void RangeView::makeSpherical(const Measurement& z) {
@@ -64,6 +65,7 @@ void RangeView::makeSpherical(const Measurement& z) {
     const int v = std::min(height_ - 1, static_cast<int>((a.elevation - cy_) / kSphericalStep));
     float& nearest = range_[index(u, v)];
     if (nearest == 0.0F || a.range < nearest) nearest = a.range;
+    farthest_ = std::max(farthest_, a.range);
   }
 }
 
@@ -76,6 +78,42 @@ std::optional<RangeView::Pixel> RangeView::project(const Eigen::Vector3f& world_
   }
   if (p.x() < kNearest) return std::nullopt;
   return Pixel{cx_ - focal_ * p.y() / p.x(), cy_ - fy_ * p.z() / p.x(), p.x()};
+}
+
+bool RangeView::mayShow(const Obb& box, double range) const {
+  if (box.box.isEmpty()) return false;
+  const Eigen::Isometry3d sensor_T_box = sensor_T_world_.cast<double>() * box.world_T_frame;
+  const double hair =
+      1e-4 * (1.0 + sensor_T_box.translation().norm());  // projections are in single precision
+  if (spherical_) return box.box.exteriorDistance(sensor_T_box.inverse().translation()) <= range + hair;
+  // Outside one of the planes through the camera and an edge of the image, or too near, or too far.
+  Eigen::Array<bool, 6, 1> outside = Eigen::Array<bool, 6, 1>::Constant(true);
+  for (int corner = 0; corner < 8; ++corner) {
+    const Eigen::Vector3d p =
+        sensor_T_box * box.box.corner(static_cast<Eigen::AlignedBox3d::CornerType>(corner));
+    const double u = cx_ * p.x() - focal_ * p.y();  // times x: the pixel
+    const double v = cy_ * p.x() - fy_ * p.z();
+    outside[0] &= u < -hair * focal_;
+    outside[1] &= u > width_ * p.x() + hair * focal_;
+    outside[2] &= v < -hair * fy_;
+    outside[3] &= v > height_ * p.x() + hair * fy_;
+    outside[4] &= p.x() < kNearest - hair;
+    outside[5] &= p.x() > range + hair;
+  }
+  return !outside.any();
+}
+
+Eigen::AlignedBox3d RangeView::worldBounds(double range) const {
+  const Eigen::Isometry3d world_T_sensor = sensor_T_world_.cast<double>().inverse();
+  const Eigen::Vector3d origin = world_T_sensor.translation();
+  if (spherical_) return {origin.array() - range, origin.array() + range};
+  Eigen::AlignedBox3d bounds(origin);
+  for (const double u : {0, width_}) {
+    for (const double v : {0, height_}) {
+      bounds.extend(world_T_sensor * (range * Eigen::Vector3d(1.0, (cx_ - u) / focal_, (cy_ - v) / fy_)));
+    }
+  }
+  return bounds;
 }
 
 }  // namespace hoctomap

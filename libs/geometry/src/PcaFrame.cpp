@@ -30,6 +30,35 @@ Eigen::Vector3d worldAxisAcross(const Eigen::Vector3d& normal) {
   return (axis - axis.dot(normal) * normal).normalized();
 }
 
+Eigen::Vector3d centroidOf(std::span<const Eigen::Vector3f> points) {
+  double x = 0.0, y = 0.0, z = 0.0;
+  for (const auto& p : points) {
+    x += static_cast<double>(p.x());
+    y += static_cast<double>(p.y());
+    z += static_cast<double>(p.z());
+  }
+  return Eigen::Vector3d(x, y, z) / static_cast<double>(points.size());
+}
+
+/// Sum of d d^T over the points, d from the centroid; sum by sum, which keeps them in registers.
+Eigen::Matrix3d scatter(std::span<const Eigen::Vector3f> points, const Eigen::Vector3d& centroid) {
+  double xx = 0.0, xy = 0.0, xz = 0.0, yy = 0.0, yz = 0.0, zz = 0.0;
+  for (const auto& p : points) {
+    const double x = static_cast<double>(p.x()) - centroid.x();
+    const double y = static_cast<double>(p.y()) - centroid.y();
+    const double z = static_cast<double>(p.z()) - centroid.z();
+    xx += x * x;
+    xy += x * y;
+    xz += x * z;
+    yy += y * y;
+    yz += y * z;
+    zz += z * z;
+  }
+  Eigen::Matrix3d sum;
+  sum << xx, xy, xz, xy, yy, yz, xz, yz, zz;
+  return sum;
+}
+
 Eigen::Matrix3d axesOf(const Eigen::Matrix3d& covariance) {
   const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> solver(covariance);
   const Eigen::Vector3d variance = solver.eigenvalues().reverse();
@@ -56,19 +85,13 @@ Eigen::Matrix3d axesOf(const Eigen::Matrix3d& covariance) {
 
 Pose pcaFrame(std::span<const Eigen::Vector3f> points) {
   if (points.empty()) return Pose();
-  Eigen::Vector3d centroid = Eigen::Vector3d::Zero();
-  for (const auto& p : points) centroid += p.cast<double>();
-  centroid /= static_cast<double>(points.size());
+  const Eigen::Vector3d centroid = centroidOf(points);
 
   Eigen::Matrix4d world_T_frame = Eigen::Matrix4d::Identity();
   world_T_frame.topRightCorner<3, 1>() = centroid;
   if (points.size() >= 3) {
-    Eigen::Matrix3d covariance = Eigen::Matrix3d::Zero();
-    for (const auto& p : points) {
-      const Eigen::Vector3d d = p.cast<double>() - centroid;
-      covariance += d * d.transpose();
-    }
-    world_T_frame.topLeftCorner<3, 3>() = axesOf(covariance / static_cast<double>(points.size()));
+    world_T_frame.topLeftCorner<3, 3>() =
+        axesOf(scatter(points, centroid) / static_cast<double>(points.size()));
   }
   return poseFromMatrix(world_T_frame);
 }

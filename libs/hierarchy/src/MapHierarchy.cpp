@@ -6,6 +6,8 @@
 #include <string>
 #include <utility>
 
+#include "NodeBoxes.h"
+
 namespace hoctomap {
 
 namespace {
@@ -20,9 +22,14 @@ void eraseChild(std::vector<NodeId>& children, NodeId id) {
 
 }  // namespace
 
-MapHierarchy::MapHierarchy(Label root_label, NodeMap root_map) {
+MapHierarchy::MapHierarchy(Label root_label, NodeMap root_map) : boxes_(std::make_unique<NodeBoxes>()) {
   nodes_.emplace(kRootId, std::make_unique<MapNode>(kRootId, std::move(root_label), std::move(root_map)));
+  boxes_->touch(kRootId);
 }
+
+MapHierarchy::~MapHierarchy() = default;
+MapHierarchy::MapHierarchy(MapHierarchy&&) noexcept = default;
+MapHierarchy& MapHierarchy::operator=(MapHierarchy&&) noexcept = default;
 
 const MapNode& MapHierarchy::node(NodeId id) const {
   const auto found = nodes_.find(id);
@@ -31,7 +38,9 @@ const MapNode& MapHierarchy::node(NodeId id) const {
 }
 
 MapNode& MapHierarchy::node(NodeId id) {
-  return const_cast<MapNode&>(std::as_const(*this).node(id));
+  const MapNode& found = std::as_const(*this).node(id);
+  boxes_->touch(id);
+  return const_cast<MapNode&>(found);
 }
 
 Pose MapHierarchy::world_T_node(NodeId id) const {  // Eq. (4)
@@ -74,6 +83,15 @@ std::vector<NodeId> MapHierarchy::ids() const {
   return ids;
 }
 
+std::vector<NodeId> MapHierarchy::idsNear(const Eigen::AlignedBox3d& world) const {
+  return boxes_->near(world, *this);
+}
+
+void MapHierarchy::touchSubtree(NodeId id) {
+  boxes_->touch(id);
+  for (const NodeId child : std::as_const(*this).node(id).children_) touchSubtree(child);
+}
+
 NodeId MapHierarchy::add(Label label, NodeMap map, const Pose& world_T_node, NodeId parent) {
   const Pose parent_T_node = orthonormalized(-this->world_T_node(parent) + world_T_node);
   const NodeId id = next_id_;
@@ -89,6 +107,7 @@ MapNode& MapHierarchy::restore(NodeId id, Label label, NodeMap map, const Pose& 
   added->parent_T_node_ = parent_T_node;
   const auto [position, inserted] = nodes_.emplace(id, std::move(added));
   if (!inserted) throw std::invalid_argument("node id " + std::to_string(id.value) + " is taken");
+  boxes_->touch(id);
   insertChild(parent_node.children_, id);
   next_id_ = std::max(next_id_, NodeId{id.value + 1});
   return *position->second;
@@ -107,6 +126,7 @@ MapNode MapHierarchy::remove(NodeId id) {
   eraseChild(node(parent).children_, id);
   MapNode removed = std::move(node(id));
   nodes_.erase(id);
+  boxes_->erase(id);
   return removed;
 }
 
@@ -114,6 +134,7 @@ void MapHierarchy::move(NodeId id, const Pose& motion) {
   if (id == kRootId) throw std::invalid_argument("the root cannot be moved");
   MapNode& n = node(id);
   n.parent_T_node_ = orthonormalized(n.parent_T_node_ + motion);
+  touchSubtree(id);
 }
 
 void MapHierarchy::reparent(NodeId id, NodeId parent) {
@@ -128,6 +149,7 @@ void MapHierarchy::reparent(NodeId id, NodeId parent) {
   insertChild(node(parent).children_, id);
   n.parent_ = parent;
   n.parent_T_node_ = orthonormalized(-world_T_node(parent) + world_T_n);
+  touchSubtree(id);  // by rounding
 }
 
 }  // namespace hoctomap

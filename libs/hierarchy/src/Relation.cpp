@@ -24,6 +24,23 @@ class LambdaRelation : public Relation {
   std::function<bool(const NodeView&, const NodeView&)> holds_;
 };
 
+class LabelRelation : public Relation {
+ public:
+  using Holds = std::function<bool(const Label&, const Label&)>;
+  LabelRelation(std::string name, Holds holds) : name_(std::move(name)), holds_(std::move(holds)) {}
+  [[nodiscard]] bool holds(const NodeView& above, const NodeView& below) const override {
+    return holds_(above.label, below.label);
+  }
+  [[nodiscard]] bool mayHold(const Label& above, const Label& below) const override {
+    return holds_(above, below);
+  }
+  [[nodiscard]] std::string name() const override { return name_; }
+
+ private:
+  std::string name_;
+  Holds holds_;
+};
+
 bool isInSubtree(const MapHierarchy& hierarchy, NodeId id, NodeId subtree_root) {
   for (const MapNode* n = &hierarchy.node(id);; n = &hierarchy.node(*n->parent())) {
     if (n->id() == subtree_root) return true;
@@ -36,6 +53,15 @@ bool isInSubtree(const MapHierarchy& hierarchy, NodeId id, NodeId subtree_root) 
 std::unique_ptr<Relation> makeRelation(std::string name,
                                        std::function<bool(const NodeView&, const NodeView&)> holds) {
   return std::make_unique<LambdaRelation>(std::move(name), std::move(holds));
+}
+
+std::unique_ptr<Relation> makeLabelRelation(std::string name,
+                                            std::function<bool(const Label&, const Label&)> holds) {
+  return std::make_unique<LabelRelation>(std::move(name), std::move(holds));
+}
+
+bool Relation::mayHold(const Label&, const Label&) const {
+  return true;
 }
 
 void RelationSet::add(std::unique_ptr<Relation> relation) {
@@ -56,10 +82,16 @@ bool RelationSet::holds(const NodeView& above, const NodeView& below) const {
   return holding != nullptr;
 }
 
+bool RelationSet::mayHold(const Label& above, const Label& below) const {
+  return std::any_of(relations_.begin(), relations_.end(),
+                     [&](const auto& relation) { return relation->mayHold(above, below); });
+}
+
 std::vector<NodeId> RelationSet::candidateAncestors(const MapHierarchy& hierarchy,
                                                     const NodeView& below) const {  // Eq. (6)
   std::vector<NodeId> candidates;
   for (const NodeId id : hierarchy.ids()) {
+    if (!mayHold(hierarchy.node(id).label(), below.label)) continue;
     if (holds(hierarchy.view(id), below)) candidates.push_back(id);
   }
   return candidates;
@@ -71,15 +103,27 @@ NodeId RelationSet::deepestAncestor(const MapHierarchy& hierarchy, const NodeVie
   bool found = false;
   for (const NodeId id : candidateAncestors(hierarchy, below)) {
     if (except != nullptr && isInSubtree(hierarchy, id, *except)) continue;
-    const auto depth = hierarchy.depth(id);
-    const auto best_depth = hierarchy.depth(best);
-    const bool better = !found || depth > best_depth ||
-                        (depth == best_depth && tie_break_ &&
-                         tie_break_(hierarchy.view(id), hierarchy.view(best), below) < 0);
-    if (better) best = id;
+    if (!found || isBetter(hierarchy, id, best, below)) best = id;
     found = true;
   }
   return best;
+}
+
+bool RelationSet::isBetter(const MapHierarchy& hierarchy, NodeId candidate, NodeId best,
+                           const NodeView& below) const {
+  const auto depth = hierarchy.depth(candidate);
+  const auto best_depth = hierarchy.depth(best);
+  if (depth != best_depth) return depth > best_depth;
+  return tie_break_ && tie_break_(hierarchy.view(candidate), hierarchy.view(best), below) < 0;
+}
+
+bool RelationSet::adopts(const MapHierarchy& hierarchy, NodeId above, NodeId below) const {
+  const MapNode& node = hierarchy.node(below);
+  if (!node.parent() || *node.parent() == above) return false;
+  if (!mayHold(hierarchy.node(above).label(), node.label())) return false;
+  const NodeView view = hierarchy.view(below);
+  if (!holds(hierarchy.view(above), view) || isInSubtree(hierarchy, above, below)) return false;
+  return !holds(hierarchy.view(*node.parent()), view) || isBetter(hierarchy, above, *node.parent(), view);
 }
 
 }  // namespace hoctomap

@@ -9,6 +9,7 @@
 #include "NumberText.h"
 #include "PreviousMap.h"
 #include "hoctomap/geometry/Errors.h"
+#include "hoctomap/io/CsvText.h"
 #include "hoctomap/io/Sha256.h"
 
 namespace hoctomap {
@@ -83,7 +84,15 @@ void MapDirectory::Session::makeWay() {
   overwriting_ = false;
 }
 
+void MapDirectory::Session::writeNodes(const MapState& state) {
+  std::vector<const MapNode*> nodes;
+  for (const NodeId id : state.hierarchy.preorder()) nodes.push_back(&state.hierarchy.node(id));
+  for (const RemovedNode& removed : state.removed) nodes.push_back(&removed.node);
+  node_files_.write(nodes);
+}
+
 Manifest MapDirectory::Session::describe(const MapState& state) {
+  writeNodes(state);
   Manifest manifest;
   manifest.generator = options_.generator;
   manifest.scans = state.scans;

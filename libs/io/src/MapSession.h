@@ -37,6 +37,7 @@ class MapDirectory::Session {
 
   // Committing.
   void makeWay();
+  void writeNodes(const MapState& state);
   [[nodiscard]] Manifest describe(const MapState& state);
   void commitManifest(const Manifest& manifest, bool keep);
   void removeUnnamedFiles();

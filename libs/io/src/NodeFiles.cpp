@@ -1,6 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "NodeFiles.h"
 
+#include <tbb/parallel_pipeline.h>
+
+#include <algorithm>
+#include <iterator>
+#include <memory>
+#include <vector>
+
 #include "MapNames.h"
 #include "hoctomap/io/OctreeFile.h"
 #include "hoctomap/io/Sha256.h"
@@ -13,14 +20,14 @@ void NodeFiles::know(const NodeRecord& record) {
                                    record.memory_bytes, record.ot, record.bt});
 }
 
-NodeFiles::Contents NodeFiles::write(const MapNode& node) const {
-  const auto store = [&](const char* extension, const std::string& bytes) {
+NodeFiles::Made NodeFiles::make(const MapNode& node) {
+  const auto recordOf = [&](const char* extension, const std::string& bytes) {
     const std::string path =
         std::string(kNodesFolder) + "/" + nodeFileStem(node.id(), node.version) + extension;
-    disk_.replace(directory_ / path, bytes);
     return FileRecord{path, bytes.size(), sha256Hex(bytes)};
   };
-  Contents contents;
+  Made made{&node, {}, otBytes(node.map().tree()), btBytes(node.map().tree())};
+  Contents& contents = made.contents;
   const Eigen::AlignedBox3d& box = node.map().occupiedBox();
   if (!box.isEmpty()) {
     contents.box_center = box.center();
@@ -28,16 +35,38 @@ NodeFiles::Contents NodeFiles::write(const MapNode& node) const {
   }
   contents.voxels = node.map().countVoxels();
   contents.memory_bytes = node.map().tree().memoryUsage();
-  contents.ot = store(".ot", otBytes(node.map().tree()));
-  contents.bt = store(".bt", btBytes(node.map().tree()));
-  return contents;
+  contents.ot = recordOf(".ot", made.ot);
+  contents.bt = recordOf(".bt", made.bt);
+  return made;
 }
 
-NodeRecord NodeFiles::record(const MapNode& node, const Pose& world_T_node) {
-  const std::pair key{node.id(), node.version};
-  auto known = known_.find(key);
-  if (known == known_.end()) known = known_.emplace(key, write(node)).first;
-  const Contents& contents = known->second;
+void NodeFiles::write(std::span<const MapNode* const> nodes) {
+  std::vector<const MapNode*> unknown;
+  std::copy_if(nodes.begin(), nodes.end(), std::back_inserter(unknown), [this](const MapNode* node) {
+    return !known_.contains({node->id(), node->version});
+  });
+  std::size_t next = 0;
+  const auto take = [&](tbb::flow_control& flow) {
+    if (next == unknown.size()) flow.stop();
+    return next++;
+  };
+  const auto makeOne = [&](std::size_t i) { return std::make_shared<const Made>(make(*unknown[i])); };
+  const auto store = [this](const std::shared_ptr<const Made>& made) {
+    disk_.replace(directory_ / made->contents.ot.path, made->ot);
+    disk_.replace(directory_ / made->contents.bt.path, made->bt);
+    known_.insert_or_assign({made->node->id(), made->node->version}, made->contents);
+  };
+  constexpr std::size_t kInMemory = 4;  // nodes whose bytes wait to be written
+  using tbb::filter_mode;
+  using MadePtr = std::shared_ptr<const Made>;
+  tbb::parallel_pipeline(kInMemory,
+                         tbb::make_filter<void, std::size_t>(filter_mode::serial_in_order, take) &
+                             tbb::make_filter<std::size_t, MadePtr>(filter_mode::parallel, makeOne) &
+                             tbb::make_filter<MadePtr, void>(filter_mode::serial_in_order, store));
+}
+
+NodeRecord NodeFiles::record(const MapNode& node, const Pose& world_T_node) const {
+  const Contents& contents = known_.at({node.id(), node.version});
 
   NodeRecord record;
   record.id = node.id();

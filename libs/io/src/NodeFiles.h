@@ -4,6 +4,8 @@
 #include <cstdint>
 #include <filesystem>
 #include <map>
+#include <span>
+#include <string>
 #include <utility>
 
 #include "Disk.h"
@@ -22,8 +24,11 @@ class NodeFiles {
   /// The files of this record are there already.
   void know(const NodeRecord& record);
 
-  /// The node as the manifest describes it; writes its files unless they are there.
-  [[nodiscard]] NodeRecord record(const MapNode& node, const Pose& world_T_node);
+  /// Writes the files of these nodes unless they are there: made in parallel, written in order.
+  void write(std::span<const MapNode* const> nodes);
+
+  /// The node as the manifest describes it. Its files have been written.
+  [[nodiscard]] NodeRecord record(const MapNode& node, const Pose& world_T_node) const;
 
  private:
   /// Everything that follows from the octree alone.
@@ -35,7 +40,14 @@ class NodeFiles {
     FileRecord ot;
     FileRecord bt;
   };
-  [[nodiscard]] Contents write(const MapNode& node) const;
+  /// Contents with the bytes of the files.
+  struct Made {
+    const MapNode* node = nullptr;
+    Contents contents;
+    std::string ot;
+    std::string bt;
+  };
+  [[nodiscard]] static Made make(const MapNode& node);
 
   const Disk& disk_;
   std::filesystem::path directory_;

@@ -17,9 +17,6 @@ namespace hoctomap {
 /// A double-quoted YAML (and JSON) text; control characters escaped.
 [[nodiscard]] std::string yamlText(std::string_view text);
 
-/// A field of a CSV row (RFC 4180): quoted where it has to be.
-[[nodiscard]] std::string csvField(std::string_view text);
-
 /// The number the whole text stands for; nothing if it is none or not finite.
 [[nodiscard]] std::optional<double> parseNumber(std::string_view text);
 [[nodiscard]] std::optional<std::uint64_t> parseCount(std::string_view text);

@@ -48,15 +48,6 @@ double smallerRange(double a, double b) {
 
 }  // namespace
 
-struct HierarchyMapper::LabelledPart {
-  Structure structure;
-  PointIndices points;
-  PointCloud world_points;
-  Label label;
-  Obb box;
-  NodeId node;  ///< that took it
-};
-
 struct HierarchyMapper::NodeEvidence {
   std::map<NodeId, Evidence> by_node;
 
@@ -76,18 +67,15 @@ HierarchyMapper::HierarchyMapper(MappingConfig config, LabelProfiles profiles, M
       strategies_(std::move(strategies)),
       hierarchy_(std::move(hierarchy)) {}
 
-UpdateReport HierarchyMapper::integrate(const Measurement& z) {
+UpdateReport HierarchyMapper::integrate(const Measurement& z, PreparedScan prepared) {
   UpdateReport report;
   report.scan = z.scan;
   report.stamp = z.stamp;
   report.points = z.world_points.size();
 
-  // III-C, step 1: segment, and label.
-  std::vector<LabelledPart> parts;
-  {
-    const StageTimer timer(report.seconds.segment);
-    parts = segmentAndLabel(z);
-  }
+  // III-C, step 1: segments with their labels.
+  std::vector<LabelledPart>& parts = prepared.parts;
+  report.seconds.segment = prepared.seconds;
 
   // What the whole measurement says of the nodes, before anything of it is integrated (III-D).
   NodeEvidence evidence;
@@ -122,9 +110,22 @@ UpdateReport HierarchyMapper::integrate(const Measurement& z) {
   return report;
 }
 
-std::vector<HierarchyMapper::LabelledPart> HierarchyMapper::segmentAndLabel(const Measurement& z) const {
+PreparedScan HierarchyMapper::prepare(const Measurement& z) const {
+  PreparedScan prepared;
+  double seconds = 0.0;
+  {
+    const StageTimer timer(seconds);
+    prepared.parts = segmentAndLabel(z);
+  }
+  prepared.seconds = seconds;
+  return prepared;
+}
+
+std::vector<LabelledPart> HierarchyMapper::segmentAndLabel(const Measurement& z) const {
+  std::vector<Segment> segments = strategies_.segmentation->segment(z);
   std::vector<LabelledPart> parts;
-  for (Segment& segment : strategies_.segmentation->segment(z)) {
+  parts.reserve(segments.size());
+  for (Segment& segment : segments) {
     if (segment.points.empty()) continue;
     LabelledPart part{segment.structure, {}, {}, strategies_.labeling->label(z, segment), {}, {}};
     static_cast<void>(profile(part.label));  // a label without a profile is an error at once
@@ -142,7 +143,7 @@ HierarchyMapper::NodeEvidence HierarchyMapper::gatherEvidence(const Measurement&
   if (!strategies_.existence) return gathered;
   std::vector<NodeId> nodes;
   std::vector<ExistenceParameters> parameters;
-  for (const NodeId id : hierarchy_.ids()) {
+  for (const NodeId id : hierarchy_.idsNear(strategies_.existence->reach(z))) {
     const LabelProfile& p = profile(hierarchy_.node(id).label());
     if (id == kRootId || !p.existence_enabled) continue;
     nodes.push_back(id);
@@ -176,14 +177,13 @@ std::vector<NodeId> HierarchyMapper::associate(const Measurement& z, const std::
 void HierarchyMapper::followMovedObjects(const Measurement& z, const std::vector<LabelledPart*>& parts,
                                          std::vector<std::optional<NodeId>>& found, NodeEvidence& evidence,
                                          UpdateReport& report) {
+  if (parts.empty() || parts.front()->structure != Structure::cluster) return;
   std::vector<SegmentInQuestion> segments;
   for (std::size_t i = 0; i < parts.size(); ++i) {
     segments.push_back({parts[i]->label, &parts[i]->world_points, found[i]});
   }
   if (config_.contest_at_surface) releaseStrangers(hierarchy_, segments);
-  for (std::size_t i = 0; i < parts.size(); ++i) {
-    if (parts[i]->structure == Structure::cluster) found[i] = segments[i].node;
-  }
+  for (std::size_t i = 0; i < parts.size(); ++i) found[i] = segments[i].node;
   MovedObjects moved = findMovedObjects(hierarchy_, z, segments, evidence.by_node, config_.reidentification);
   for (const MovedObject& object : moved.found) {
     const Eigen::Isometry3d world_T_node = toIsometry(hierarchy_.world_T_node(object.node));
@@ -237,12 +237,16 @@ void HierarchyMapper::updateMaps(const Measurement& z, const std::vector<Labelle
     update.profile = &profile(update.node->label());
     update.max_range = smallerRange(config_.max_range, update.profile->max_range);
     update.bounded = config_.bounded;
-    std::sort(update.points.begin(), update.points.end());
+    if (!std::is_sorted(update.points.begin(), update.points.end()))  // one segment is
+      std::sort(update.points.begin(), update.points.end());
     updates.push_back(std::move(update));
   }
   std::vector<ScanUpdateReport> results(updates.size());
-  tbb::parallel_for(std::size_t{0}, updates.size(),
-                    [&](std::size_t i) { results[i] = updateNodeMap(updates[i], z, *strategies_.update); });
+  tbb::parallel_for(std::size_t{0}, updates.size(), [&](std::size_t i) {
+    results[i] = updateNodeMap(updates[i], z, *strategies_.update);
+    static_cast<void>(
+        updates[i].node->map().occupiedBox());  // all that follows asks for it: here in parallel
+  });
 
   std::vector<NodeId> created;
   for (std::size_t i = 0; i < updates.size(); ++i) {
@@ -260,13 +264,14 @@ void HierarchyMapper::updateMaps(const Measurement& z, const std::vector<Labelle
 
 void HierarchyMapper::adoptRelated(const std::vector<NodeId>& created) {
   // An object that was seen before its table hangs under the background until the table appears.
+  const RelationSet& relations = strategies_.relations;
   for (const NodeId above : created) {
+    const Label& label = std::as_const(hierarchy_).node(above).label();
+    if (std::none_of(profiles_.begin(), profiles_.end(),
+                     [&](const auto& p) { return relations.mayHold(label, p.first); }))
+      continue;
     for (const NodeId id : hierarchy_.ids()) {
-      if (id == kRootId || id == above) continue;
-      const NodeView below = hierarchy_.view(id);
-      if (!strategies_.relations.holds(hierarchy_.view(above), below)) continue;
-      const NodeId parent = strategies_.relations.deepestAncestor(hierarchy_, below, &id);
-      if (parent != hierarchy_.node(id).parent()) hierarchy_.reparent(id, parent);
+      if (id != above && relations.adopts(hierarchy_, above, id)) hierarchy_.reparent(id, above);
     }
   }
 }

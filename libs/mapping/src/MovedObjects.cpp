@@ -23,10 +23,14 @@ double presentShare(const Evidence& e) {
 }
 
 std::vector<DoubtfulNode> doubtfulNodes(const MapHierarchy& hierarchy,
+                                        std::span<const SegmentInQuestion> segments,
                                         const std::map<NodeId, Evidence>& support, double most_present) {
   std::vector<DoubtfulNode> doubtful;
   for (const auto& [id, evidence] : support) {
     if (!evidence.informative || presentShare(evidence) >= most_present) continue;
+    const Label& label = hierarchy.node(id).label();
+    if (std::none_of(segments.begin(), segments.end(), [&](const auto& s) { return s.label == label; }))
+      continue;
     DoubtfulNode node{id, evidence.contradicts(), {}};
     const Eigen::Isometry3f world_T_node = toIsometry(hierarchy.world_T_node(id)).cast<float>();
     for (const auto& voxel : hierarchy.node(id).map().occupiedVoxels()) {
@@ -157,7 +161,7 @@ MovedObjects findMovedObjects(const MapHierarchy& hierarchy, const Measurement& 
                               const std::map<NodeId, Evidence>& support,
                               const ReidentificationConfig& config) {
   if (!config.enabled || segments.empty()) return {};
-  const auto doubtful = doubtfulNodes(hierarchy, support, config.most_present);
+  const auto doubtful = doubtfulNodes(hierarchy, segments, support, config.most_present);
   if (doubtful.empty()) return {};
   return Finder(hierarchy, z, config).find(segments, doubtful);
 }

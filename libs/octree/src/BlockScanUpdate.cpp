@@ -1,174 +1,180 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "hoctomap/octree/BlockScanUpdate.h"
 
-#include <algorithm>
+#include <tbb/parallel_for.h>
+#include <tbb/task_arena.h>
 
+#include <algorithm>
+#include <mutex>
+
+#include "BeamDensity.h"
 #include "BulkUpdate.h"
-#include "RayClip.h"
-#include "RayMarker.h"
-#include "RayTraversal.h"
-#include "VoxelBlocks.h"
+#include "ScanMarks.h"
 
 namespace hoctomap {
 
-namespace engine {
 namespace {
 
-using Eigen::Vector3f;
+using engine::KeyBox;
+using engine::ScanBeams;
+using engine::ScanMarks;
+using engine::Scratch;
 
-/// Keys that the beams of a scan can reach.
-KeyBox reach(const VoxelGrid& grid, const Beams& beams) {
-  // A cell beyond an endpoint may come from rounding, never a second one.
-  constexpr int kMargin = 2;
-  Vector3f low = beams.origin;
-  Vector3f high = beams.origin;
-  for (const auto points : {beams.hits, beams.passing}) {
-    for (const Vector3f& p : points) {
-      low = low.cwiseMin(p);
-      high = high.cwiseMax(p);
-    }
-  }
-  KeyBox box;
-  for (std::size_t i = 0; i < 3; ++i) {
-    const auto axis = static_cast<Eigen::Index>(i);
-    const int min = grid.clampedKey(low[axis]) - kMargin;
-    const int max = grid.clampedKey(high[axis]) + kMargin;
-    // At the ends of the key range that cell may wrap to the other end, as in octomap.
-    if (min < 0 || max > kMaxKey) continue;
-    box.min[i] = min;
-    box.max[i] = max;
-  }
-  return box;
+/// Beams of a part of a scan.
+struct BeamList {
+  std::vector<Eigen::Vector3f> hits;
+  std::vector<Eigen::Vector3f> passing;
+};
+
+/// Those that may meet a box.
+BeamList beamsNear(const ScanBeams& scan, std::span<const Eigen::Vector3f> hits,
+                   std::span<const Eigen::Vector3f> passing, const KeyBox& box) {
+  const engine::BoxFilter filter(scan.grid(), scan.origin(), box);
+  const auto may_meet = [&filter](const Eigen::Vector3f& end) { return filter.mayMeet(end); };
+  BeamList near;
+  std::copy_if(hits.begin(), hits.end(), std::back_inserter(near.hits), may_meet);
+  std::copy_if(passing.begin(), passing.end(), std::back_inserter(near.passing), may_meet);
+  return near;
 }
 
-/// Calls f(point) for each point, hopping between the parts of the scan: rays marked at the same time should
-/// not be neighbours, or they wait for each other's writes to the same word.
-template <class F>
-void forEachSpread(std::span<const Vector3f> points, F&& f) {
-  constexpr std::size_t kParts = RayMarker::kLanes;
-  const std::size_t part = (points.size() + kParts - 1) / kParts;
-  for (std::size_t i = 0; i < part; ++i) {
-    for (std::size_t j = i; j < points.size(); j += part) f(points[j]);
+/// The two halves of a box, cut across its longest edge at a border of blocks.
+std::array<KeyBox, 2> halves(const KeyBox& box) {
+  std::size_t axis = 0;
+  for (std::size_t i = 1; i < 3; ++i) {
+    if (box.max[i] - box.min[i] > box.max[axis] - box.min[axis]) axis = i;
   }
+  constexpr int kBlockEdge = 1 << engine::kBlockLevel;
+  const int middle = ((box.min[axis] + box.max[axis]) / 2 + kBlockEdge) & ~(kBlockEdge - 1);
+  std::array<KeyBox, 2> both{box, box};
+  both[0].max[axis] = middle - 1;
+  both[1].min[axis] = middle;
+  return both;
 }
 
-/// Collects the voxels of one scan.
-class ScanMarks {
+/// Scratch memory of the updates under way; given back, it serves the next ones.
+class ScratchPool {
  public:
-  ScanMarks(const VoxelGrid& grid, const Beams& beams, bool best_instructions)
-      : grid_(grid),
-        beams_(beams),
-        bounded_(beams.bounds.has_value()),
-        box_(reach(grid, beams).intersection(grid.keyBox(beams.bounds))),
-        frame_(box_),
-        free_(frame_),
-        occupied_(frame_),
-        caster_(grid, beams.origin),
-        filter_(grid, beams.origin, box_),
-        marker_(frame_, free_, best_instructions) {
-    forEachSpread(beams.hits, [this](const Vector3f& p) { addHit(p); });
-    forEachSpread(beams.passing, [this](const Vector3f& p) { carve(isTooLong(p) ? cut(p) : p); });
-    marker_.finish();
+  std::unique_ptr<Scratch> take() {
+    const std::lock_guard lock(mutex_);
+    if (unused_.empty()) return std::make_unique<Scratch>();
+    auto scratch = std::move(unused_.back());
+    unused_.pop_back();
+    return scratch;
   }
-
-  [[nodiscard]] const ScanUpdateReport& report() const { return report_; }
-
-  /// The blocks in the order of the octree.
-  [[nodiscard]] std::vector<BlockMarks> blocks() const {
-    std::vector<BlockMarks> blocks;
-    blocks.reserve(free_.created().size());
-    for (const Code b : free_.created())
-      blocks.push_back({frame_.treeCode(b), free_.find(b), occupied_.find(b)});
-    for (const Code b : occupied_.created()) {
-      if (free_.find(b) == nullptr) blocks.push_back({frame_.treeCode(b), nullptr, occupied_.find(b)});
-    }
-    std::sort(blocks.begin(), blocks.end(),
-              [](const BlockMarks& a, const BlockMarks& b) { return a.tree_code < b.tree_code; });
-    return blocks;
+  void giveBack(std::unique_ptr<Scratch> scratch) {
+    const std::lock_guard lock(mutex_);
+    unused_.push_back(std::move(scratch));
   }
 
  private:
-  void addHit(const Vector3f& end) {
-    if (isTooLong(end)) {
-      carve(cut(end));
-      return;
-    }
-    Key key;
-    if (!grid_.checkedKey(end, key)) {
-      ++report_.beyond_key_range;
-      return;
-    }
-    if (box_.contains(key)) occupied_.mark(frame_.localCode(key));
-    carve(end, key);
-  }
-
-  // As octomap, with its order of operations: they decide the last bit of the new end.
-  [[nodiscard]] static double norm(const Vector3f& v) {
-    return std::sqrt(static_cast<double>(v.x() * v.x() + v.y() * v.y() + v.z() * v.z()));
-  }
-  [[nodiscard]] bool isTooLong(const Vector3f& end) const {
-    return beams_.max_range >= 0.0 && norm(end - beams_.origin) > beams_.max_range;
-  }
-  [[nodiscard]] Vector3f cut(const Vector3f& end) const {
-    Vector3f direction = end - beams_.origin;
-    const double length = norm(direction);
-    if (length > 0.0) direction /= static_cast<float>(length);
-    return beams_.origin + direction * static_cast<float>(beams_.max_range);
-  }
-
-  void carve(const Vector3f& end) {
-    Key key;
-    if (grid_.checkedKey(end, key)) carve(end, key);
-  }
-
-  void carve(const Vector3f& end, const Key& end_key) {
-    if (!caster_.originValid() || end_key == caster_.originKey()) return;
-    if (bounded_ && !filter_.mayMeet(end)) return;
-    const Ray ray = caster_.prepare(end, end_key);
-    if (!isRegular(ray)) {
-      walkAsOctomap(ray, [this](const Key& key) {
-        if (box_.contains(key)) free_.mark(frame_.localCode(key));
-      });
-    } else if (!bounded_) {
-      marker_.add(ray, wholeRay(ray));
-    } else if (const auto inside = clipRegularRay(ray, box_)) {
-      marker_.add(ray, *inside);
-    }
-  }
-
-  const VoxelGrid& grid_;
-  const Beams& beams_;
-  bool bounded_;
-  KeyBox box_;
-  BlockFrame frame_;
-  VoxelBlocks free_;
-  VoxelBlocks occupied_;
-  RayCaster caster_;
-  BoxFilter filter_;
-  RayMarker marker_;
-  ScanUpdateReport report_;
+  std::mutex mutex_;
+  std::vector<std::unique_ptr<Scratch>> unused_;
 };
 
-}  // namespace
-}  // namespace engine
+/// One scan into one tree. What does not fit one bitmap is done in parts, one after the other: the voxels of
+/// different parts do not depend on each other.
+class ScanPass {
+ public:
+  ScanPass(octomap::OcTree& tree, const ScanBeams& scan, bool best_instructions, ScratchPool& pool)
+      : tree_(tree), scan_(scan), best_(best_instructions), pool_(pool) {}
 
-namespace {
+  void run() {
+    if (!scan_.box().empty())
+      updatePart(scan_.box(), scan_.bounded(), scan_.beams().hits, scan_.beams().passing);
+    for (const engine::Key& key : scan_.strays()) updateStray(key);
+  }
+
+ private:
+  using Points = std::span<const Eigen::Vector3f>;
+
+  void updatePart(const KeyBox& box, bool bounded, Points hits, Points passing) {
+    if (hits.empty() && passing.empty()) return;
+    if (isTooLarge(box, hits, passing)) {
+      for (const KeyBox& half : halves(box)) {
+        const BeamList near = beamsNear(scan_, hits, passing, half);
+        updatePart(half, true, near.hits, near.passing);
+      }
+      return;
+    }
+    const std::size_t tasks = tasksFor(hits.size() + passing.size());
+    std::vector<std::unique_ptr<Scratch>> scratch(tasks);
+    for (auto& s : scratch) s = pool_.take();
+    {
+      std::vector<std::unique_ptr<ScanMarks>> marks(tasks);
+      const auto share = [tasks](Points points, std::size_t task) {
+        const std::size_t first = points.size() * task / tasks;
+        return points.subspan(first, points.size() * (task + 1) / tasks - first);
+      };
+      const auto mark = [&](std::size_t task) {
+        marks[task] = std::make_unique<ScanMarks>(scan_, box, bounded, best_, *scratch[task]);
+        marks[task]->addHits(share(hits, task));
+        marks[task]->addPassing(share(passing, task));
+        marks[task]->finish();
+      };
+      if (tasks == 1) {
+        mark(0);
+      } else {
+        tbb::this_task_arena::isolate([&] { tbb::parallel_for(std::size_t{0}, tasks, mark); });
+      }
+      for (std::size_t task = 1; task < tasks; ++task) {
+        marks[0]->unite(*marks[task]);
+        marks[task].reset();
+      }
+      engine::updateTree(tree_, marks[0]->blocks());
+    }
+    for (auto& s : scratch) pool_.giveBack(std::move(s));
+  }
+
+  /// True if the box does not fit a bitmap, or the bitmap would take too much memory.
+  bool isTooLarge(const KeyBox& box, Points hits, Points passing) const {
+    constexpr double kPageEdge = 32.0;
+    if (engine::BlockFrame(box).levels() > engine::BlockFrame::kMaxLevels) return true;
+    double pages = 1.0;
+    for (std::size_t i = 0; i < 3; ++i) pages *= (box.max[i] - box.min[i]) / kPageEdge + 1.0;
+    constexpr double kSamples = 1 << 16;
+    return pages > engine::kMaxPagesAPart &&
+           engine::BeamDensity(scan_, box, hits, passing, kSamples).pages() > engine::kMaxPagesAPart;
+  }
+
+  /// Shares of the beams marked at the same time, each with bitmaps of its own: few, and none too small.
+  static std::size_t tasksFor(std::size_t beams) {
+    constexpr std::size_t kBeamsATask = 4000;
+    const auto threads = static_cast<std::size_t>(tbb::this_task_arena::max_concurrency());
+    return std::clamp(beams / kBeamsATask, std::size_t{1}, threads);
+  }
+
+  void updateStray(const engine::Key& key) {
+    auto scratch = pool_.take();
+    {
+      ScanMarks marks(scan_, {key, key}, true, best_, *scratch);
+      marks.addFree(key);
+      engine::updateTree(tree_, marks.blocks());
+    }
+    pool_.giveBack(std::move(scratch));
+  }
+
+  octomap::OcTree& tree_;
+  const ScanBeams& scan_;
+  bool best_;
+  ScratchPool& pool_;
+};
 
 class BlockScanUpdate : public ScanUpdate {
  public:
-  explicit BlockScanUpdate(Instructions instructions) : instructions_(instructions) {}
+  explicit BlockScanUpdate(Instructions instructions) : best_(instructions == Instructions::best) {}
 
   ScanUpdateReport apply(octomap::OcTree& tree, const Beams& beams) const override {
     if (tree.isChangeDetectionEnabled()) return reference_->apply(tree, beams);
     const engine::VoxelGrid grid(tree.getResolution());
-    const engine::ScanMarks marks(grid, beams, instructions_ == Instructions::best);
-    engine::updateTree(tree, marks.blocks());
-    return marks.report();
+    const ScanBeams scan(grid, beams);
+    ScanPass(tree, scan, best_, pool_).run();
+    return {scan.beyondKeyRange()};
   }
 
  private:
-  Instructions instructions_;
+  bool best_;
   std::unique_ptr<ScanUpdate> reference_ = makeReferenceScanUpdate();
+  mutable ScratchPool pool_;
 };
 
 }  // namespace

@@ -3,16 +3,16 @@
 
 namespace hoctomap::engine {
 
-namespace {
-
-constexpr std::array<BlockBits, kBlockWords> kNoMarks{};
-
-}  // namespace
-
 BlockView::BlockView(const BlockMarks& marks) : marks_(marks) {
-  if (marks_.free == nullptr) marks_.free = kNoMarks.data();
-  if (marks_.occupied == nullptr) marks_.occupied = kNoMarks.data();
+  constexpr std::size_t kBricksAPage = kBricks / kBlockPages;
   for (std::size_t brick = 0; brick < kBricks; ++brick) {
+    const std::size_t page = brick / kBricksAPage;
+    // Pages without marks are not read: that would take memory for them.
+    if (brick % kBricksAPage == 0 &&
+        ((marks_.free_pages | marks_.occupied_pages) >> (8 * page) & 0xFFU) == 0) {
+      brick += kBricksAPage - 1;
+      continue;
+    }
     BlockBits any_free = 0;
     BlockBits all_free = ~BlockBits{0};
     BlockBits any_occupied = 0;

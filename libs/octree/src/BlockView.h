@@ -4,15 +4,17 @@
 #include <array>
 #include <span>
 
-#include "VoxelBlocks.h"
+#include "VoxelBits.h"
 
 namespace hoctomap::engine {
 
-/// The marks of one block. Either may be null: no voxel marked.
+/// The marks of one block.
 struct BlockMarks {
   Code tree_code;  ///< of the block in the whole tree
   const BlockBits* free;
   const BlockBits* occupied;
+  std::uint64_t free_pages;  ///< a byte a page (an octant of the block): 0 if it has no marks
+  std::uint64_t occupied_pages;
 };
 
 /// What a scan says of the voxels of one octree node: which of the two updates some of them, or all, receive.

@@ -1,8 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "BulkUpdate.h"
 
+#include <tbb/parallel_for.h>
+#include <tbb/task_arena.h>
+
 #include <algorithm>
 #include <limits>
+#include <vector>
 
 #include "TreeAccess.h"
 
@@ -63,47 +67,78 @@ class Odds {
 /// what it would not touch stays as it is, even if it could be pruned.
 class Updater {
  public:
-  explicit Updater(octomap::OcTree& tree) : odds_(tree), size_(TreeAccess::sizeOf(tree)) {}
+  explicit Updater(const Odds& odds) : odds_(odds) {}
+
+  /// Nodes made less nodes pruned so far.
+  [[nodiscard]] std::ptrdiff_t grown() const { return grown_; }
 
   Node* create(float value) {
-    ++size_;
+    ++grown_;
     auto* node = new Node();
     node->setValue(value);
     return node;
   }
 
-  /// A node above the blocks. @param created it has just been made: it has neither children nor a value of
-  /// its own.
-  bool updateUpper(Node& node, bool created, unsigned level, std::span<const BlockMarks> blocks) {
-    if (level == kBlockLevel) return updateBlock(node, created, blocks.front());
-    if (!created && !hasChildren(node)) {
-      if (keepsAll(node.getValue(), blocks)) return false;
-      expand(node);
-    }
-    bool touched = false;
-    const unsigned shift = 3 * (level - 1 - kBlockLevel);
-    while (!blocks.empty()) {
-      const auto octant = [shift](const BlockMarks& b) {
-        return static_cast<unsigned>(b.tree_code >> shift) & 7U;
-      };
-      const unsigned first = octant(blocks.front());
-      const auto end =
-          std::find_if(blocks.begin(), blocks.end(), [&](const auto& b) { return octant(b) != first; });
-      const auto count = static_cast<std::size_t>(end - blocks.begin());
-      const auto [next, next_created] = childOrNew(node, first);
-      touched |= updateUpper(*next, next_created, level - 1, blocks.first(count));
-      blocks = blocks.subspan(count);
-    }
-    if (touched) settle(node);
-    return touched;
+  struct Descent {
+    Node* node;
+    bool created;
+  };
+  Descent childOrNew(Node& node, unsigned octant) {
+    auto*& place = childrenOrNew(node)[octant];
+    if (place != nullptr) return {static_cast<Node*>(place), false};
+    Node* made = create(0.0F);
+    place = made;
+    return {made, true};
   }
 
- private:
+  void expand(Node& node) {
+    auto** children = childrenOrNew(node);
+    for (unsigned i = 0; i < kOctants; ++i) children[i] = create(node.getValue());
+  }
+
+  /// As octomap on its way back up: prunes the node if its children are eight equal leaves, else takes their
+  /// maximum.
+  void settle(Node& node) {
+    auto**& children = NodeAccess::childrenOf(node);
+    float greatest = std::numeric_limits<float>::lowest();
+    unsigned leaves = 0;
+    bool equal = true;
+    float first = 0.0F;
+    for (unsigned i = 0; i < kOctants; ++i) {
+      auto* c = static_cast<Node*>(children[i]);
+      if (c == nullptr) continue;
+      const float value = c->getValue();
+      greatest = std::max(greatest, value);
+      if (leaves == 0) first = value;
+      equal = equal && value == first;
+      if (equal && !hasChildren(*c)) ++leaves;
+    }
+    node.setValue(greatest);
+    if (leaves < kOctants || !equal) return;
+    node.setValue(first);
+    for (unsigned i = 0; i < kOctants; ++i) delete static_cast<Node*>(children[i]);
+    delete[] children;
+    children = nullptr;
+    grown_ -= kOctants;
+  }
+
   bool updateBlock(Node& node, bool created, const BlockMarks& marks) {
     const BlockView view(marks);
     return update<kBlockLevel>(node, created, view, 0, view.coverage<kBlockLevel>(0));
   }
 
+  /// True if the marks change nothing in a leaf of this value: nor do they make octomap expand it.
+  [[nodiscard]] bool keepsAll(float value, const Coverage& coverage) const {
+    return (!coverage.any_free || odds_.keeps(value, false)) &&
+           (!coverage.any_occupied || odds_.keeps(value, true));
+  }
+  [[nodiscard]] bool keepsAll(float value, std::span<const BlockMarks> blocks) const {
+    return std::all_of(blocks.begin(), blocks.end(), [&](const BlockMarks& marks) {
+      return keepsAll(value, BlockView(marks).coverage<kBlockLevel>(0));
+    });
+  }
+
+ private:
   /// A node `level` levels above the voxels, whose first voxel is at `offset` in its block.
   template <unsigned level>
   bool update(Node& node, bool created, const BlockView& block, unsigned offset, const Coverage& coverage) {
@@ -146,24 +181,24 @@ class Updater {
     const float value = node.getValue();
     if (!created && keepsAll(value, Coverage{free != 0, false, occupied != 0, false})) return false;
 
-    // The values first: where they turn out equal, no voxel is ever made.
-    const unsigned known = created ? free | occupied : 0xFFU;
-    std::array<float, kOctants> values{};
-    bool equal = known == 0xFFU;
+    // The values first: where they turn out equal, no voxel is ever made. There are three kinds of voxels.
+    const std::array<float, 3> values{created ? odds_.created(false) : odds_.updated(value, false),
+                                      created ? odds_.created(true) : odds_.updated(value, true), value};
+    const std::array<unsigned, 3> sets{free, occupied, created ? 0U : 0xFFU & ~(free | occupied)};
+    float least = std::numeric_limits<float>::max();
+    float greatest = std::numeric_limits<float>::lowest();
+    for (std::size_t kind = 0; kind < sets.size(); ++kind) {
+      if (sets[kind] == 0) continue;
+      least = std::min(least, values[kind]);
+      greatest = std::max(greatest, values[kind]);
+    }
+    node.setValue(greatest);
+    if ((sets[0] | sets[1] | sets[2]) == 0xFFU && least == greatest) return true;
+    auto** children = childrenOrNew(node);
     for (unsigned i = 0; i < kOctants; ++i) {
-      const bool hit = (occupied >> i & 1U) != 0;
-      const bool marked = ((free | occupied) >> i & 1U) != 0;
-      values[i] = created ? odds_.created(hit) : marked ? odds_.updated(value, hit) : value;
-      equal = equal && values[i] == values[0];
+      const std::size_t kind = (free >> i & 1U) != 0 ? 0 : (occupied >> i & 1U) != 0 ? 1 : 2;
+      if (kind < 2 || !created) children[i] = create(values[kind]);
     }
-    if (equal) {
-      node.setValue(values[0]);
-      return true;
-    }
-    for (unsigned i = 0; i < kOctants; ++i) {
-      if ((known >> i & 1U) != 0) slot(node, i) = create(values[i]);
-    }
-    node.updateOccupancyChildren();
     return true;
   }
 
@@ -174,7 +209,7 @@ class Updater {
       const bool hit = (occupied >> i & 1U) != 0;
       Node* voxel = child(node, i);
       if (voxel == nullptr) {
-        slot(node, i) = create(odds_.created(hit));
+        childrenOrNew(node)[i] = create(odds_.created(hit));
       } else if (!odds_.keeps(voxel->getValue(), hit)) {
         voxel->setValue(odds_.updated(voxel->getValue(), hit));
       } else {
@@ -186,72 +221,110 @@ class Updater {
     return touched;
   }
 
-  /// True if the marks change nothing in a leaf of this value: nor do they make octomap expand it.
-  [[nodiscard]] bool keepsAll(float value, const Coverage& coverage) const {
-    return (!coverage.any_free || odds_.keeps(value, false)) &&
-           (!coverage.any_occupied || odds_.keeps(value, true));
-  }
-  [[nodiscard]] bool keepsAll(float value, std::span<const BlockMarks> blocks) const {
-    return std::all_of(blocks.begin(), blocks.end(), [&](const BlockMarks& marks) {
-      return keepsAll(value, BlockView(marks).coverage<kBlockLevel>(0));
-    });
-  }
-
-  octomap::AbstractOcTreeNode*& slot(Node& node, unsigned octant) {
+  static octomap::AbstractOcTreeNode** childrenOrNew(Node& node) {
     auto**& children = NodeAccess::childrenOf(node);
     if (children == nullptr) children = new octomap::AbstractOcTreeNode*[kOctants]();
-    return children[octant];
-  }
-
-  struct Descent {
-    Node* node;
-    bool created;
-  };
-  Descent childOrNew(Node& node, unsigned octant) {
-    auto*& place = slot(node, octant);
-    if (place != nullptr) return {static_cast<Node*>(place), false};
-    Node* made = create(0.0F);
-    place = made;
-    return {made, true};
-  }
-
-  void expand(Node& node) {
-    for (unsigned i = 0; i < kOctants; ++i) slot(node, i) = create(node.getValue());
-  }
-
-  /// As octomap on its way back up: prunes the node if its children are eight equal leaves, else takes their
-  /// maximum.
-  void settle(Node& node) {
-    auto**& children = NodeAccess::childrenOf(node);
-    const Node* first = static_cast<Node*>(children[0]);
-    const bool prunable = std::all_of(children, children + kOctants, [&](auto* c) {
-      auto* n = static_cast<Node*>(c);
-      return n != nullptr && n->getValue() == first->getValue() && !hasChildren(*n);
-    });
-    if (!prunable) {
-      node.updateOccupancyChildren();
-      return;
-    }
-    node.setValue(first->getValue());
-    for (unsigned i = 0; i < kOctants; ++i) delete static_cast<Node*>(children[i]);
-    delete[] children;
-    children = nullptr;
-    size_ -= kOctants;
+    return children;
   }
 
   Odds odds_;
-  std::size_t& size_;
+  std::ptrdiff_t grown_ = 0;
 };
+
+/// One block of the tree to be brought up to date. Different blocks have no node in common.
+struct BlockJob {
+  Node* node = nullptr;  ///< null: an ancestor is a leaf that the marks do not change
+  bool created = false;
+  bool touched = false;
+  std::ptrdiff_t grown = 0;
+};
+
+/// The nodes above the blocks: down to the blocks, and, once these are up to date, back up.
+class UpperNodes {
+ public:
+  UpperNodes(Updater& updater, std::span<const BlockMarks> blocks, std::span<BlockJob> jobs)
+      : updater_(updater), blocks_(blocks), jobs_(jobs) {}
+
+  /// Creates and expands the nodes that lead to the blocks [first, last).
+  /// @param created the node has just been made: it has neither children nor a value of its own.
+  void descend(Node& node, bool created, unsigned level, std::size_t first, std::size_t last) {
+    if (level == kBlockLevel) {
+      jobs_[first] = {&node, created};
+      return;
+    }
+    if (!created && !hasChildren(node)) {
+      if (updater_.keepsAll(node.getValue(), blocks_.subspan(first, last - first))) return;
+      updater_.expand(node);
+    }
+    forEachOctant(level, first, last, [&](unsigned octant, std::size_t from, std::size_t to) {
+      const auto [next, next_created] = updater_.childOrNew(node, octant);
+      descend(*next, next_created, level - 1, from, to);
+    });
+  }
+
+  /// Brings the inner nodes up to date. True if a block below was touched.
+  bool ascend(Node& node, unsigned level, std::size_t first, std::size_t last) {
+    if (level == kBlockLevel) return jobs_[first].touched;
+    if (!hasChildren(node)) return false;
+    bool touched = false;
+    forEachOctant(level, first, last, [&](unsigned octant, std::size_t from, std::size_t to) {
+      touched |= ascend(*child(node, octant), level - 1, from, to);
+    });
+    if (touched) updater_.settle(node);
+    return touched;
+  }
+
+ private:
+  template <class F>
+  void forEachOctant(unsigned level, std::size_t first, std::size_t last, F&& f) {
+    const unsigned shift = 3 * (level - 1 - kBlockLevel);
+    const auto octant = [&](std::size_t i) {
+      return static_cast<unsigned>(blocks_[i].tree_code >> shift) & 7U;
+    };
+    while (first < last) {
+      std::size_t end = first + 1;
+      while (end < last && octant(end) == octant(first)) ++end;
+      f(octant(first), first, end);
+      first = end;
+    }
+  }
+
+  Updater& updater_;
+  std::span<const BlockMarks> blocks_;
+  std::span<BlockJob> jobs_;
+};
+
+void updateBlocks(const Odds& odds, std::span<const BlockMarks> blocks, std::span<BlockJob> jobs) {
+  // Isolated, lest a thread that waits here takes up another node's update, with memory of its own.
+  tbb::this_task_arena::isolate([&] {
+    tbb::parallel_for(std::size_t{0}, jobs.size(), [&](std::size_t i) {
+      BlockJob& job = jobs[i];
+      if (job.node == nullptr) return;
+      Updater updater(odds);
+      job.touched = updater.updateBlock(*job.node, job.created, blocks[i]);
+      job.grown = updater.grown();
+    });
+  });
+}
 
 }  // namespace
 
 void updateTree(octomap::OcTree& tree, std::span<const BlockMarks> blocks) {
   if (blocks.empty()) return;
-  Updater updater(tree);
+  const Odds odds(tree);
+  Updater updater(odds);
+  std::vector<BlockJob> jobs(blocks.size());
+  UpperNodes upper(updater, blocks, jobs);
   Node*& root = TreeAccess::rootOf(tree);
   const bool created = root == nullptr;
   if (created) root = updater.create(0.0F);
-  if (updater.updateUpper(*root, created, kTreeLevels, blocks)) TreeAccess::sizeChanged(tree) = true;
+  upper.descend(*root, created, kTreeLevels, 0, blocks.size());
+  updateBlocks(odds, blocks, jobs);
+  if (upper.ascend(*root, kTreeLevels, 0, blocks.size())) TreeAccess::sizeChanged(tree) = true;
+
+  std::ptrdiff_t grown = updater.grown();
+  for (const BlockJob& job : jobs) grown += job.grown;
+  TreeAccess::sizeOf(tree) += static_cast<std::size_t>(grown);
 }
 
 }  // namespace hoctomap::engine

@@ -13,17 +13,15 @@ namespace hoctomap::engine {
 /// levels up.
 ///
 /// The bits of one axis, spread to every third place ("dilated"), can be stepped without taking the code
-/// apart: adding `stepOf` and masking lets the carry run over the other axes' places.
+/// apart: with all other places set, the carry of adding 1 runs over them.
 using Code = std::int64_t;
 
 /// Places of x, y and z in the code of a 16-bit key.
 inline constexpr std::array<Code, 3> kAxisMask{0x2492'4924'9249, 0x4924'9249'2492, 0x9249'2492'4924};
 
-/// What to add to a dilated coordinate, before masking, for a step of -1, 0 or 1.
-constexpr Code stepOf(std::size_t axis, int step) {
-  if (step > 0) return -kAxisMask[axis];  // = all other places set, plus the lowest place of this axis
-  return step < 0 ? -(Code{1} << axis) : 0;
-}
+/// The same over the whole word.
+inline constexpr std::array<Code, 3> kAxisPlaces{static_cast<Code>(0x9249'2492'4924'9249),
+                                                 0x2492'4924'9249'2492, 0x4924'9249'2492'4924};
 
 /// The 16 bits of a key at every third place, from place 0.
 constexpr Code dilate(int key) {

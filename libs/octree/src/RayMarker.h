@@ -1,41 +1,38 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include "RayTraversal.h"
-#include "VoxelBlocks.h"
+#include <array>
+
+#include "Lanes.h"
+#include "VoxelBits.h"
 
 namespace hoctomap::engine {
+
+/// The state of four traversals, by axis. Every axis counts upwards: one that the ray goes down is mirrored
+/// (all its bits inverted), and `mirror` turns the cell back.
+struct Traversals {
+  Doubles next[3];
+  Doubles delta[3];
+  Codes place[3];  ///< mirrored dilated coordinates at their axis' places, all other bits set
+  Codes mirror;    ///< the axes' places that are mirrored
+};
 
 /// Marks the cells of regular rays, four rays at a time in lockstep: their chains of dependent operations
 /// overlap, and one vector instruction serves four.
 class RayMarker {
  public:
   /// @param best_instructions false: only those that every processor of the architecture has.
-  RayMarker(const BlockFrame& frame, VoxelBlocks& blocks, bool best_instructions);
+  RayMarker(VoxelBits& bits, bool best_instructions);
 
-  /// Marks the cells of a stretch, now or by the time of `finish`.
-  void add(const Ray& ray, const Stretch& stretch);
+  /// Marks `cells` (at least 1) cells of the traversal `from[lane]`, now or by the time of `finish`.
+  void add(const Traversals& from, std::size_t lane, int cells);
 
   void finish();
 
-  static constexpr std::size_t kLanes = 4;
-
-  using Times = double __attribute__((vector_size(kLanes * sizeof(double))));
-  using Codes = Code __attribute__((vector_size(kLanes * sizeof(Code))));
-
-  /// The state of four traversals, by axis.
-  struct Lanes {
-    Times next[3];
-    Times delta[3];
-    Codes place[3];  ///< dilated local coordinates, at their axis' places
-    Codes step[3];   ///< see stepOf
-  };
-
  private:
-  const BlockFrame& frame_;
-  VoxelBlocks& blocks_;
-  void (*run_)(Lanes&, VoxelBlocks&, int cells);
-  Lanes lanes_{};
+  VoxelBits& bits_;
+  void (*run_)(Traversals&, BlockBits*, std::uint8_t*, int cells);
+  Traversals lanes_{};
   std::array<int, kLanes> cells_left_{};
   std::size_t used_ = 0;
 };

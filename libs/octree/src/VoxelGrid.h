@@ -44,6 +44,7 @@ class VoxelGrid {
         half_cell_(static_cast<float>(resolution * 0.5)) {}
 
   [[nodiscard]] double resolution() const { return resolution_; }
+  [[nodiscard]] double cellsPerMetre() const { return cells_per_metre_; }
 
   /// As coordToKeyChecked; -1 instead of false (also for NaN).
   [[nodiscard]] int checkedKey(double coordinate) const {

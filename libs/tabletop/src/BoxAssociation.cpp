@@ -46,7 +46,8 @@ class BoxAssociation : public AssociationFunction {
     std::optional<NodeId> best;
     std::tuple<std::size_t, double> best_rank;  // depth, overlap
     const Obb grown = segment.box.padded(margin_);
-    for (const NodeId id : hierarchy.ids()) {  // ascending: the first of equals has the lowest id
+    for (const NodeId id :
+         hierarchy.idsNear(worldBounds(grown))) {  // ascending: the first of equals has the lowest id
       if (hierarchy.node(id).label() != segment.label || (admissible && !admissible(id))) continue;
       const Obb box = hierarchy.box(id);
       if (!fallsInto(hierarchy.node(id), box, segment, grown)) continue;

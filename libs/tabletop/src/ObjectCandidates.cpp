@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "ScanBlocks.h"
+
 namespace hoctomap {
 namespace {
 
@@ -13,24 +15,29 @@ constexpr double kBelow = 0.10;        // m under the table down to which they a
 constexpr double kAbove = 0.05;        // m above the height limit up to which they are followed
 constexpr double kFlatBreadth = 0.06;  // m, least breadth of a flat layer
 
-std::vector<Candidate> pointsAround(const Measurement& z, const TableSurface& table, const Regions& regions,
+std::vector<Candidate> pointsAround(const ScanBlocks& scan, const TableSurface& table, const Regions& regions,
                                     const std::vector<bool>& taken,
                                     const TabletopSegmentationConfig& config) {
   std::vector<Candidate> candidates;
-  const Eigen::Vector3d origin = z.origin();
-  for (std::uint32_t i = 0; i < z.world_points.size(); ++i) {
-    if (taken[i]) continue;
-    const Eigen::Vector3d p = z.world_points[i].cast<double>();
+  const Eigen::Vector3d origin = scan.z().origin();
+  const double highest = config.object_height_max + kAbove;
+  const auto isAround = [&, region = table.grid.bounds()](const Eigen::AlignedBox3d& box) {
+    if (!region.intersects(inPlan(box))) return false;
+    const Heights heights(table.plane, box);
+    return heights.low <= highest && heights.high >= -kBelow;
+  };
+  scan.visit(isAround, [&](std::uint32_t i) {
+    if (taken[i]) return;
+    const Eigen::Vector3d p = scan.z().world_points[i].cast<double>();
     const double height = table.plane.signedDistance(p);
-    if (height < -kBelow || height > config.object_height_max + kAbove) continue;
+    if (height < -kBelow || height > highest) return;
     const auto cell = table.grid.cellOf(p.x(), p.y());
-    if (cell >= table.grid.size() || !regions.around[cell]) continue;
+    if (cell >= table.grid.size() || !regions.around[cell]) return;
     const double range = (p - origin).norm();
     // Over the table, what is near its plane is its noise; beside it, a part of what passes by.
-    if (table.extent[cell] && std::abs(height) <= config.surfaceTolerance(range, origin.z() - p.z()))
-      continue;
+    if (table.extent[cell] && std::abs(height) <= config.surfaceTolerance(range, origin.z() - p.z())) return;
     candidates.push_back({i, cell, height, range});
-  }
+  });
   return candidates;
 }
 
@@ -86,11 +93,11 @@ Regions::Regions(const TableSurface& table)
       inside(table.grid.dilated(table.extent, kOverhang)),
       around(table.grid.dilated(table.extent, kSurround)) {}
 
-std::vector<Candidate> objectCandidates(const Measurement& z, const TableSurface& table,
+std::vector<Candidate> objectCandidates(const ScanBlocks& scan, const TableSurface& table,
                                         const Regions& regions, const std::vector<bool>& taken,
                                         const TabletopSegmentationConfig& config) {
-  auto candidates = pointsAround(z, table, regions, taken, config);
-  dropLonePixels(z, candidates);
+  auto candidates = pointsAround(scan, table, regions, taken, config);
+  dropLonePixels(scan.z(), candidates);
   dropFlatLayers(table, candidates, config);
   return candidates;
 }

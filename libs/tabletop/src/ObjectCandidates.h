@@ -27,7 +27,7 @@ struct Regions {
 /// The points from which the objects on a table are clustered, ascending: those above it, and, so that what
 /// only passes by is known for what it is, those around and below its edge. Without the points in `taken`,
 /// flying pixels and flat layers such as papers.
-[[nodiscard]] std::vector<Candidate> objectCandidates(const Measurement& z, const TableSurface& table,
+[[nodiscard]] std::vector<Candidate> objectCandidates(const ScanBlocks& scan, const TableSurface& table,
                                                       const Regions& regions, const std::vector<bool>& taken,
                                                       const TabletopSegmentationConfig& config);
 

@@ -79,12 +79,18 @@ std::vector<Surfel> horizontalSurfels(const Measurement& z, const TabletopSegmen
   const double high = config.table_height_max + kMargin;
   VoxelIndex voxels;
   std::vector<Moments> moments;
+  Eigen::Vector3i last_key = Eigen::Vector3i::Zero();
+  std::uint32_t last = 0;
   for (const auto& point : z.world_points) {
     const Eigen::Vector3d p = point.cast<double>();
     if (p.z() < low || p.z() > high) continue;
-    const auto id = voxels.insert((p / Surfel::kSize).array().floor().matrix().cast<int>());
-    if (id == moments.size()) moments.emplace_back();
-    moments[id].add(p);
+    const Eigen::Vector3i key = floorOf(p / Surfel::kSize);
+    if (key != last_key || moments.empty()) {  // points come in rows: mostly it is the voxel of the last one
+      last_key = key;
+      last = voxels.insert(key);
+      if (last == moments.size()) moments.emplace_back();
+    }
+    moments[last].add(p);
   }
   std::vector<Surfel> surfels;
   for (const auto& m : moments) {

@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "ObjectCandidates.h"
+#include "ScanBlocks.h"
 #include "Vessels.h"
 #include "hoctomap/tabletop/EuclideanClusters.h"
 
@@ -153,10 +154,11 @@ std::vector<PointIndices> findStandingObjects(const Measurement& z, std::span<co
   for (const auto& table : tables) {
     for (const auto i : table.points) taken[i] = true;
   }
+  const ScanBlocks scan(z);
   std::vector<PointIndices> objects;
   for (const auto& table : tables) {
     const Regions regions(table);
-    const auto candidates = objectCandidates(z, table, regions, taken, config);
+    const auto candidates = objectCandidates(scan, table, regions, taken, config);
     auto clusters = clustersOf(candidates, z, clusterTolerance(candidates, config));
     auto found = standing(std::move(clusters), table, regions, z, config);
     joinVessels(found, z, config);

@@ -3,83 +3,119 @@
 
 #include <algorithm>
 #include <cmath>
-#include <nanoflann.hpp>
+#include <optional>
+
+#include "ScanBlocks.h"
+#include "VoxelIndex.h"
 
 namespace hoctomap {
 namespace {
 
-/// All objects' points, for nanoflann, with the object that each belongs to.
-struct ObjectPoints {
-  PointCloud points;
-  std::vector<std::size_t> object;
+/// All objects' points in voxels of the radius within which they are searched.
+class ObjectPoints {
+ public:
+  ObjectPoints(const PointCloud& world_points, const std::vector<PointIndices>& objects, double radius)
+      : world_points_(world_points), radius_(radius) {
+    std::size_t count = 0;
+    for (const auto& object : objects) count += object.size();
+    points_.reserve(count);
+    for (std::size_t k = 0; k < objects.size(); ++k) {
+      for (const auto i : objects[k]) add(i, k);
+    }
+  }
 
-  // nanoflann's names
-  [[nodiscard]] std::size_t kdtree_get_point_count() const { return points.size(); }
-  [[nodiscard]] float kdtree_get_pt(std::size_t i, std::size_t axis) const {
-    return points[i][static_cast<Eigen::Index>(axis)];
+  /// The object with the nearest point within the radius; of equally near points the first counts.
+  [[nodiscard]] std::optional<std::size_t> nearest(const Eigen::Vector3f& p) const {
+    const Eigen::Vector3i key = floorOf(p.cast<double>() / radius_);
+    const auto radius = static_cast<float>(radius_);
+    float best = radius * radius;
+    std::optional<std::size_t> object;
+    for (int n = 0; n < 27; ++n) {
+      const auto voxel = voxels_.find(key + Eigen::Vector3i(n / 9 - 1, n / 3 % 3 - 1, n % 3 - 1));
+      if (voxel == VoxelIndex::kNone) continue;
+      for (auto at = last_in_voxel_[voxel]; at != VoxelIndex::kNone; at = points_[at].previous) {
+        const Eigen::Vector3f d = world_points_[points_[at].point] - p;
+        const float distance = d.x() * d.x() + d.y() * d.y() + d.z() * d.z();
+        if (distance > best) continue;
+        object = object && distance == best ? std::min(*object, points_[at].object) : points_[at].object;
+        best = distance;
+      }
+    }
+    return object;
   }
-  template <typename Box>
-  bool kdtree_get_bbox(Box&) const {
-    return false;
+
+ private:
+  struct ObjectPoint {
+    std::uint32_t point;
+    std::uint32_t previous;  ///< of the same voxel
+    std::size_t object;
+  };
+
+  void add(std::uint32_t point, std::size_t object) {
+    const auto voxel = voxels_.insert(floorOf(world_points_[point].cast<double>() / radius_));
+    if (voxel == last_in_voxel_.size()) last_in_voxel_.push_back(VoxelIndex::kNone);
+    points_.push_back({point, last_in_voxel_[voxel], object});
+    last_in_voxel_[voxel] = static_cast<std::uint32_t>(points_.size() - 1);
   }
+
+  const PointCloud& world_points_;
+  double radius_;
+  VoxelIndex voxels_;
+  std::vector<std::uint32_t> last_in_voxel_;
+  std::vector<ObjectPoint> points_;
 };
 
-using Tree =
-    nanoflann::KDTreeSingleIndexAdaptor<nanoflann::L2_Simple_Adaptor<float, ObjectPoints>, ObjectPoints, 3>;
-
-/// The nearest object within `radius` of a point.
-std::optional<std::size_t> nearestObject(const Tree& tree, const ObjectPoints& cloud,
-                                         const Eigen::Vector3f& p, float radius) {
-  if (cloud.points.empty()) return std::nullopt;
-  std::uint32_t index = 0;
-  float squared_distance = 0.0F;
-  if (tree.knnSearch(p.data(), 1, &index, &squared_distance) == 0 || squared_distance > radius * radius) {
-    return std::nullopt;
-  }
-  return cloud.object[index];
+/// Sorts indices of which all but the first `sorted` have been added in ascending order.
+void mergeAdded(PointIndices& indices, std::size_t sorted) {
+  std::inplace_merge(indices.begin(), indices.begin() + static_cast<std::ptrdiff_t>(sorted), indices.end());
 }
 
 }  // namespace
 
 void attachStrays(const Measurement& z, std::vector<TableSurface>& tables, std::vector<PointIndices>& objects,
                   const TabletopSegmentationConfig& config) {
-  ObjectPoints cloud;
   std::vector<bool> taken(z.world_points.size(), false);
+  std::vector<std::size_t> table_sizes;
+  std::vector<std::size_t> object_sizes;
   for (const auto& table : tables) {
     for (const auto i : table.points) taken[i] = true;
+    table_sizes.push_back(table.points.size());
   }
-  for (std::size_t k = 0; k < objects.size(); ++k) {
-    for (const auto i : objects[k]) {
-      taken[i] = true;
-      cloud.points.push_back(z.world_points[i]);
-      cloud.object.push_back(k);
-    }
+  for (const auto& object : objects) {
+    for (const auto i : object) taken[i] = true;
+    object_sizes.push_back(object.size());
   }
-  const Tree tree(3, cloud, nanoflann::KDTreeSingleIndexAdaptorParams(16));
+  const ObjectPoints object_points(z.world_points, objects, config.cluster_tolerance);
 
   const Eigen::Vector3d origin = z.origin();
-  for (std::uint32_t i = 0; i < z.world_points.size(); ++i) {
-    if (taken[i]) continue;
+  const auto isOverTable = [&](const Eigen::AlignedBox3d& box) {
+    return std::any_of(tables.begin(), tables.end(), [&](const TableSurface& table) {
+      return table.grid.bounds().intersects(inPlan(box)) &&
+             Heights(table.plane, box).low <= config.object_height_max;
+    });
+  };
+  ScanBlocks(z).visit(isOverTable, [&](std::uint32_t i) {
+    if (taken[i]) return;
     const Eigen::Vector3d p = z.world_points[i].cast<double>();
     for (auto& table : tables) {
       const double height = table.plane.signedDistance(p);
-      const double flat = config.flatHeight((p - origin).norm());
-      if (height < -flat || height > config.object_height_max) continue;
+      if (height > config.object_height_max) continue;
       const auto cell = table.grid.cellOf(p.x(), p.y());
       if (cell >= table.grid.size() || !table.extent[cell]) continue;
+      const double flat = config.flatHeight((p - origin).norm());
+      if (height < -flat) continue;
       if (std::abs(height) <= flat) {
         table.points.push_back(i);
-      } else if (const auto object = nearestObject(tree, cloud, z.world_points[i],
-                                                   static_cast<float>(config.cluster_tolerance))) {
+      } else if (const auto object = object_points.nearest(z.world_points[i])) {
         objects[*object].push_back(i);
       } else {
         continue;
       }
       break;
     }
-  }
-  for (auto& object : objects) std::sort(object.begin(), object.end());
-  for (auto& table : tables) std::sort(table.points.begin(), table.points.end());
+  });
+  for (std::size_t k = 0; k < objects.size(); ++k) mergeAdded(objects[k], object_sizes[k]);
+  for (std::size_t k = 0; k < tables.size(); ++k) mergeAdded(tables[k].points, table_sizes[k]);
 }
 
 }  // namespace hoctomap

@@ -5,6 +5,8 @@
 #include <cmath>
 #include <numeric>
 
+#include "ScanBlocks.h"
+
 namespace hoctomap {
 namespace {
 
@@ -55,33 +57,39 @@ bool inside(const std::vector<Eigen::Vector2d>& hull, const Eigen::Vector2d& p) 
 
 }  // namespace
 
-SurfaceGrid::SurfaceGrid(const Measurement& z, const Plane& plane, const Eigen::AlignedBox2d& region,
+SurfaceGrid::SurfaceGrid(const ScanBlocks& scan, const Plane& plane, const Eigen::AlignedBox2d& region,
                          const TabletopSegmentationConfig& config)
     : cell_(config.outline_cell),
       corner_((region.min() / cell_).array().floor() * cell_),
       columns_(static_cast<int>(std::ceil((region.max().x() - corner_.x()) / cell_)) + 1),
-      rows_(static_cast<int>(std::ceil((region.max().y() - corner_.y()) / cell_)) + 1) {
+      rows_(static_cast<int>(std::ceil((region.max().y() - corner_.y()) / cell_)) + 1),
+      reach_(cell_ * Eigen::Vector2d(columns_ + 1, rows_ + 1)) {
   constexpr double kBeside = 0.05;  // m above and below the surface where a wall or a chair would show
   std::vector<Votes> votes(static_cast<std::size_t>(columns_) * static_cast<std::size_t>(rows_));
   cells_.assign(votes.size(), Cell::unseen);
-  const Eigen::Vector3d origin = z.origin();
+  const Eigen::Vector3d origin = scan.z().origin();
   const double sensor_height = plane.signedDistance(origin);
-  for (const auto& point : z.world_points) {
-    const Eigen::Vector3d p = point.cast<double>();
+  const auto mayMatter = [&, region = bounds()](const Eigen::AlignedBox3d& box) {
+    return region.intersects(inPlan(box)) || region.intersects(crossings(plane, origin, box));
+  };
+  scan.visit(mayMatter, [&](std::uint32_t i) {
+    const Eigen::Vector3d p = scan.z().world_points[i].cast<double>();
     const double height = plane.signedDistance(p);
-    const double tolerance = config.surfaceTolerance((p - origin).norm(), sensor_height - height);
-    if (std::abs(height) <= tolerance) {
-      if (const auto cell = cellOf(p.x(), p.y()); cell < size()) vote(votes[cell].on);
-      continue;
+    if (std::abs(height) <= config.largestTolerance((p - origin).squaredNorm()) + kBeside) {
+      const double tolerance = config.surfaceTolerance((p - origin).norm(), sensor_height - height);
+      if (std::abs(height) <= tolerance) {
+        if (const auto cell = cellOf(p.x(), p.y()); cell < size()) vote(votes[cell].on);
+        return;
+      }
+      if (std::abs(height) < tolerance + kBeside) {
+        if (const auto cell = cellOf(p.x(), p.y()); cell < size()) vote(votes[cell].beside);
+      }
     }
-    if (std::abs(height) < tolerance + kBeside) {
-      if (const auto cell = cellOf(p.x(), p.y()); cell < size()) vote(votes[cell].beside);
-    }
-    if (height >= sensor_height) continue;  // rises: never crosses
+    if (height >= sensor_height) return;  // rises: never crosses
     const Eigen::Vector3d crossing = origin + (p - origin) * (sensor_height / (sensor_height - height));
     const auto cell = cellOf(crossing.x(), crossing.y());
     if (cell < size()) vote(height < 0.0 ? votes[cell].passing : votes[cell].stopped);
-  }
+  });
   for (std::size_t i = 0; i < cells_.size(); ++i) {
     const Votes& v = votes[i];
     // What goes on above or below is the slice of a wall or of a chair's back, or the foot of an object.

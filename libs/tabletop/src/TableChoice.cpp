@@ -20,6 +20,11 @@ struct Support {
   double gap = std::numeric_limits<double>::infinity();     ///< m in the plan, centre to surface
 };
 
+/// The table under an object is not seen: a hole as large as the object belongs to the outline. Metres.
+double holeUnder(const NodeView& object, const NodeMap& table) {
+  return worldBounds(object.box).sizes().head<2>().norm() / 2.0 + 2.0 * table.resolution();
+}
+
 Support supportOf(const NodeView& table, const NodeView& object) {
   Support support;
   if (table.map == nullptr || object.box.box.isEmpty()) return support;
@@ -34,17 +39,42 @@ Support supportOf(const NodeView& table, const NodeView& object) {
     surface = at.z();
   }
   if (!std::isfinite(support.gap)) return support;
-  // The table under an object is not seen: a hole as large as the object belongs to the outline.
-  const double hole = bounds.sizes().head<2>().norm() / 2.0 + 2.0 * table.map->resolution();
   const double above = bounds.min().z() - surface;
-  support.over = support.gap <= hole && above > -kSink;
+  support.over = support.gap <= holeUnder(object, *table.map) && above > -kSink;
   support.height = std::abs(above);
   return support;
+}
+
+/// Distances in the plan, from the object's centre to the nearest and to the farthest point of a table's box.
+struct PlanDistances {
+  PlanDistances(const Obb& table, const Eigen::Vector2d& center) {
+    const Eigen::AlignedBox3d bounds = worldBounds(table);
+    const Eigen::AlignedBox2d plan(bounds.min().head<2>(), bounds.max().head<2>());
+    nearest = plan.exteriorDistance(center);
+    farthest = (center - plan.center()).cwiseAbs().norm() + plan.sizes().norm() / 2.0;
+  }
+  double nearest;
+  double farthest;
+};
+
+/// Whether `far` lies so far from the object that `near` is preferred whatever their voxels are: with many
+/// tables, most are.
+bool isOutOfQuestion(const NodeView& far, const NodeView& near, const NodeView& object) {
+  constexpr double kHair = 1e-6;  // m, rounding
+  if (far.map == nullptr || near.map == nullptr || far.box.box.isEmpty() || near.box.box.isEmpty() ||
+      object.box.box.isEmpty()) {
+    return false;
+  }
+  const Eigen::Vector2d center = object.box.center().head<2>();
+  const double nearest = PlanDistances(far.box, center).nearest - kHair;
+  return nearest > holeUnder(object, *far.map) && nearest > PlanDistances(near.box, center).farthest;
 }
 
 }  // namespace
 
 int preferredTable(const NodeView& a, const NodeView& b, const NodeView& below) {
+  if (isOutOfQuestion(a, b, below)) return 1;
+  if (isOutOfQuestion(b, a, below)) return -1;
   const Support on_a = supportOf(a, below);
   const Support on_b = supportOf(b, below);
   if (on_a.over != on_b.over) return on_a.over ? -1 : 1;

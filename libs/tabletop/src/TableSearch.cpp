@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "ScanBlocks.h"
 #include "hoctomap/tabletop/EuclideanClusters.h"
 
 namespace hoctomap {
@@ -49,18 +50,26 @@ bool isBroad(const SurfaceGrid& grid, const CellMask& patch) {
 }
 
 /// Points of the patch: on the plane and over its cells or their neighbours, which hold the feet of objects.
-PointIndices pointsOf(const Measurement& z, const Plane& plane, const SurfaceGrid& grid,
+PointIndices pointsOf(const ScanBlocks& scan, const Plane& plane, const SurfaceGrid& grid,
                       const CellMask& patch, const Config& config) {
   PointIndices points;
   const CellMask over = grid.dilated(patch, grid.cellSize());
-  const Eigen::Vector3d origin = z.origin();
-  for (std::uint32_t i = 0; i < z.world_points.size(); ++i) {
-    const Eigen::Vector3d p = z.world_points[i].cast<double>();
+  const Eigen::Vector3d origin = scan.z().origin();
+  const auto isNear = [&, region = grid.bounds()](const Eigen::AlignedBox3d& box) {
+    if (!region.intersects(inPlan(box))) return false;
+    const Heights heights(plane, box);
+    const double farthest = (origin - box.center()).norm() + box.sizes().norm() / 2.0;
+    const double tolerance = config.largestTolerance(farthest * farthest);
+    return heights.low <= tolerance && heights.high >= -tolerance;
+  };
+  scan.visit(isNear, [&](std::uint32_t i) {
+    const Eigen::Vector3d p = scan.z().world_points[i].cast<double>();
+    const double distance = plane.absDistance(p);
+    if (distance > config.largestTolerance((p - origin).squaredNorm())) return;
     const auto cell = grid.cellOf(p.x(), p.y());
-    if (cell >= over.size() || !over[cell]) continue;
-    const double tolerance = config.surfaceTolerance((p - origin).norm(), origin.z() - p.z());
-    if (plane.absDistance(p) <= tolerance) points.push_back(i);
-  }
+    if (cell >= over.size() || !over[cell]) return;
+    if (distance <= config.surfaceTolerance((p - origin).norm(), origin.z() - p.z())) points.push_back(i);
+  });
   return points;
 }
 
@@ -86,11 +95,11 @@ double meanHeight(const SurfaceGrid& grid, const CellMask& patch, const Plane& p
 }
 
 /// One patch of a plane found by RANSAC, made precise; nothing if it is no table.
-std::optional<TableSurface> tableOf(const Measurement& z, const Plane& rough, const SurfaceGrid& rough_grid,
+std::optional<TableSurface> tableOf(const ScanBlocks& scan, const Plane& rough, const SurfaceGrid& rough_grid,
                                     const CellMask& rough_patch, const Config& config) {
-  const auto plane = refit(z, pointsOf(z, rough, rough_grid, rough_patch, config), config);
-  if (!plane || plane->signedDistance(z.origin()) <= kSameTable) return std::nullopt;
-  SurfaceGrid grid(z, *plane, regionAround(rough_grid, rough_patch), config);
+  const auto plane = refit(scan.z(), pointsOf(scan, rough, rough_grid, rough_patch, config), config);
+  if (!plane || plane->signedDistance(scan.z().origin()) <= kSameTable) return std::nullopt;
+  SurfaceGrid grid(scan, *plane, regionAround(rough_grid, rough_patch), config);
   const double cell_area = grid.cellSize() * grid.cellSize();
   auto patches = grid.patches(kGap, kHiddenGap, static_cast<std::size_t>(config.min_table_area / cell_area));
   if (patches.empty() || !isBroad(grid, patches.front())) return std::nullopt;
@@ -98,21 +107,21 @@ std::optional<TableSurface> tableOf(const Measurement& z, const Plane& rough, co
   const double height = meanHeight(grid, patch, *plane);
   if (height < config.table_height_min || height > config.table_height_max) return std::nullopt;
   CellMask extent = grid.extent(patch);
-  auto points = pointsOf(z, *plane, grid, patch, config);
+  auto points = pointsOf(scan, *plane, grid, patch, config);
   return TableSurface{*plane, std::move(grid), std::move(patch), std::move(extent), std::move(points)};
 }
 
-std::vector<TableSurface> tablesOf(const Measurement& z, const Plane& plane,
+std::vector<TableSurface> tablesOf(const ScanBlocks& scan, const Plane& plane,
                                    std::span<const Eigen::Vector3d> inliers, const Config& config) {
   std::vector<TableSurface> tables;
   const auto region = regionAround(inliers);
   if (!fits(region, config)) return tables;
-  const SurfaceGrid grid(z, plane, region, config);
+  const SurfaceGrid grid(scan, plane, region, config);
   const double cell_area = grid.cellSize() * grid.cellSize();
   // The plane is rough yet: half of the area will do.
   const auto least = static_cast<std::size_t>(config.min_table_area / cell_area / 2.0);
   for (const auto& patch : grid.patches(kGap, kHiddenGap, least)) {
-    if (auto table = tableOf(z, plane, grid, patch, config)) tables.push_back(std::move(*table));
+    if (auto table = tableOf(scan, plane, grid, patch, config)) tables.push_back(std::move(*table));
   }
   return tables;
 }
@@ -170,6 +179,7 @@ std::vector<PointIndices> partsOf(std::span<const Eigen::Vector3d> inliers) {
 }  // namespace
 
 std::vector<TableSurface> findTables(const Measurement& z, const TabletopSegmentationConfig& config) {
+  const ScanBlocks scan(z);
   std::mt19937_64 rng(config.seed);
   std::vector<TableSurface> tables;
   auto surfels = horizontalSurfels(z, config);
@@ -188,7 +198,7 @@ std::vector<TableSurface> findTables(const Measurement& z, const TabletopSegment
       std::vector<Eigen::Vector3d> centroids;
       for (const auto i : part) centroids.push_back(inliers[i]);
       const auto fitted = regressionPlane(centroids, config);
-      for (auto& table : tablesOf(z, fitted ? *fitted : *plane, centroids, config)) {
+      for (auto& table : tablesOf(scan, fitted ? *fitted : *plane, centroids, config)) {
         tables.push_back(std::move(table));
       }
     }

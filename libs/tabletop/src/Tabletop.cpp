@@ -20,9 +20,7 @@ std::unique_ptr<LabelingFunction> makeTabletopLabeling() {
 }
 
 std::unique_ptr<Relation> makeTabletopRelation() {
-  return makeRelation("supports", [](const NodeView& above, const NodeView& below) {  // Eq. (11)
-    const Label& i = above.label;
-    const Label& j = below.label;
+  return makeLabelRelation("supports", [](const Label& i, const Label& j) {  // Eq. (11)
     return (i == labels::table && j == labels::object) || (i == labels::background && j == labels::table) ||
            (i == labels::background && j == labels::object);
   });

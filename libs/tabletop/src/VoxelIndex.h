@@ -7,6 +7,15 @@
 
 namespace hoctomap {
 
+/// Largest integers not above; |p| < 2^31. Without SSE 4.1 std::floor is a call of the library.
+inline Eigen::Vector3i floorOf(const Eigen::Vector3d& p) {
+  const auto down = [](double x) {
+    const int truncated = static_cast<int>(x);
+    return truncated - (x < truncated ? 1 : 0);
+  };
+  return {down(p.x()), down(p.y()), down(p.z())};
+}
+
 /// Numbers the voxels that hold something, in the order in which they are first met. A hash table with open
 /// addressing: the searches of this library spend their time here.
 class VoxelIndex {

@@ -23,10 +23,15 @@ struct BeamExistenceConfig {
   double min_in_view = 0.35;  ///< share of the node that must be inside the image
   int max_beams = 400;        ///< beams used a node (strided)
   RangeNoise noise;
+
+  /// Metres by which the end of a beam may miss a node's voxels at this range and still be on them.
+  [[nodiscard]] double rangeTolerance(double resolution, double range) const {
+    return tolerance + 0.87 * resolution + 3.0 * noise.sigma(range);
+  }
 };
 
 /// The visibility model of docs/decisions/0006: a z-buffer of the node's occupied voxels against the scan's
-/// own range image, with the error of the pose searched out per node.
+/// own range image, with the error of the pose searched out per node. Nodes are compared in parallel.
 class BeamExistenceModel : public InverseExistenceModel {
  public:
   explicit BeamExistenceModel(const BeamExistenceConfig& config) : config_(config) {}
@@ -34,6 +39,9 @@ class BeamExistenceModel : public InverseExistenceModel {
   [[nodiscard]] std::vector<Evidence> evidence(
       const MapHierarchy& hierarchy, const Measurement& measurement, const std::vector<NodeId>& nodes,
       const std::vector<ExistenceParameters>& parameters) const override;
+
+  /// As far as the scan's farthest return: what lies beyond is hidden at best.
+  [[nodiscard]] Eigen::AlignedBox3d reach(const Measurement& measurement) const override;
 
  private:
   BeamExistenceConfig config_;

@@ -32,6 +32,10 @@ class InverseExistenceModel {
   [[nodiscard]] virtual std::vector<Evidence> evidence(
       const MapHierarchy& hierarchy, const Measurement& measurement, const std::vector<NodeId>& nodes,
       const std::vector<ExistenceParameters>& parameters) const = 0;
+
+  /// Box in the world that a node must meet to get any evidence from this measurement: so that the work grows
+  /// with the nodes in view and not with all nodes.
+  [[nodiscard]] virtual Eigen::AlignedBox3d reach(const Measurement& measurement) const;
 };
 
 }  // namespace hoctomap

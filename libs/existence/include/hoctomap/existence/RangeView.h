@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "hoctomap/geometry/Measurement.h"
+#include "hoctomap/geometry/Obb.h"
 
 namespace hoctomap {
 
@@ -23,6 +24,14 @@ class RangeView {
 
   /// Where a point in the world is seen; nothing if it lies behind the sensor. May lie outside the image.
   [[nodiscard]] std::optional<Pixel> project(const Eigen::Vector3f& world_point) const;
+
+  /// False only if no point of the box is seen inside the image, at a range of at most `range`.
+  [[nodiscard]] bool mayShow(const Obb& box, double range) const;
+
+  /// Farthest measured range; 0 if there was no return.
+  [[nodiscard]] float farthest() const { return farthest_; }
+  /// Box in the world of all that is seen inside the image at a range of at most `range`.
+  [[nodiscard]] Eigen::AlignedBox3d worldBounds(double range) const;
 
   [[nodiscard]] int width() const { return width_; }
   [[nodiscard]] int height() const { return height_; }
@@ -47,6 +56,7 @@ class RangeView {
   float cx_ = 0.0F;
   float cy_ = 0.0F;
   float fy_ = 0.0F;
+  float farthest_ = 0.0F;
   std::vector<float> range_;
 };
 

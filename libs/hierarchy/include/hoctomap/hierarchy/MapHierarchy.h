@@ -10,6 +10,8 @@
 
 namespace hoctomap {
 
+class NodeBoxes;
+
 /// The map M = {n_1, ..., n_k} of Eq. 1: a tree of map nodes, and their only owner.
 ///
 /// Properties:
@@ -24,13 +26,16 @@ class MapHierarchy {
  public:
   explicit MapHierarchy(Label root_label, NodeMap root_map);
 
-  MapHierarchy(MapHierarchy&&) noexcept = default;
-  MapHierarchy& operator=(MapHierarchy&&) noexcept = default;
+  ~MapHierarchy();
+  MapHierarchy(MapHierarchy&&) noexcept;
+  MapHierarchy& operator=(MapHierarchy&&) noexcept;
 
   [[nodiscard]] std::size_t size() const { return nodes_.size(); }
   [[nodiscard]] bool contains(NodeId id) const { return nodes_.contains(id); }
   /// @throws std::out_of_range if there is no such node.
   [[nodiscard]] const MapNode& node(NodeId id) const;
+  /// The reference is for changing the node now: one kept beyond the next call of `idsNear` must not change
+  /// the map m_i.
   [[nodiscard]] MapNode& node(NodeId id);
   [[nodiscard]] const MapNode& root() const { return node(kRootId); }
   [[nodiscard]] MapNode& root() { return node(kRootId); }
@@ -47,6 +52,10 @@ class MapHierarchy {
   [[nodiscard]] std::vector<NodeId> preorder() const;
   /// All ids, ascending.
   [[nodiscard]] std::vector<NodeId> ids() const;
+  /// Ids of the nodes whose box in the world meets `world` (touching, up to a hair), ascending. The cost
+  /// grows with their number and with that of the nodes changed since the last call, not with that of all
+  /// nodes. Not for several threads at once.
+  [[nodiscard]] std::vector<NodeId> idsNear(const Eigen::AlignedBox3d& world) const;
   [[nodiscard]] NodeId nextId() const { return next_id_; }
 
   /// Adds a node under `parent` so that its frame in the world is `world_T_node`: t_i = t_p^global^-1 o it.
@@ -71,8 +80,11 @@ class MapHierarchy {
   void reparent(NodeId id, NodeId parent);
 
  private:
+  void touchSubtree(NodeId id);
+
   std::map<NodeId, std::unique_ptr<MapNode>> nodes_;
   NodeId next_id_{1};
+  std::unique_ptr<NodeBoxes> boxes_;  ///< derived from the nodes, brought up to date by `idsNear`
 };
 
 }  // namespace hoctomap

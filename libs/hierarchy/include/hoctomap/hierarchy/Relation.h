@@ -30,11 +30,17 @@ class Relation {
   /// Whether (above, below) is in r: `above` is at a higher level of the hierarchy than `below`.
   [[nodiscard]] virtual bool holds(const NodeView& above, const NodeView& below) const = 0;
   [[nodiscard]] virtual std::string name() const = 0;
+  /// Whether it can hold between nodes of these labels at all: spares the search for parents most nodes.
+  [[nodiscard]] virtual bool mayHold(const Label& above, const Label& below) const;
 };
 
 /// A relation from a lambda `bool(const NodeView& above, const NodeView& below)`.
 [[nodiscard]] std::unique_ptr<Relation> makeRelation(
     std::string name, std::function<bool(const NodeView&, const NodeView&)> holds);
+
+/// A relation that depends on the labels only.
+[[nodiscard]] std::unique_ptr<Relation> makeLabelRelation(
+    std::string name, std::function<bool(const Label& above, const Label& below)> holds);
 
 /// Thrown when two relations of a set hold for one pair: they must be mutually exclusive (Section III-B).
 struct RelationConflict : std::logic_error {
@@ -55,6 +61,9 @@ class RelationSet {
   /// @throws RelationConflict if more than one does.
   [[nodiscard]] bool holds(const NodeView& above, const NodeView& below) const;
 
+  /// Whether some relation can hold between nodes of these labels.
+  [[nodiscard]] bool mayHold(const Label& above, const Label& below) const;
+
   /// A of Eq. 6: all nodes that are related to `below`, ascending.
   [[nodiscard]] std::vector<NodeId> candidateAncestors(const MapHierarchy& hierarchy,
                                                        const NodeView& below) const;
@@ -64,7 +73,13 @@ class RelationSet {
   [[nodiscard]] NodeId deepestAncestor(const MapHierarchy& hierarchy, const NodeView& below,
                                        const NodeId* except = nullptr) const;
 
+  /// Whether `above` is a better parent, in the sense of Eq. 7, for `below` than the one it has.
+  [[nodiscard]] bool adopts(const MapHierarchy& hierarchy, NodeId above, NodeId below) const;
+
  private:
+  [[nodiscard]] bool isBetter(const MapHierarchy& hierarchy, NodeId candidate, NodeId best,
+                              const NodeView& below) const;
+
   std::vector<std::unique_ptr<Relation>> relations_;
   TieBreak tie_break_;
 };

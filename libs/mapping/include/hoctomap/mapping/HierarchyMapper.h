@@ -12,6 +12,7 @@
 #include "hoctomap/mapping/LabelProfile.h"
 #include "hoctomap/mapping/LabelingFunction.h"
 #include "hoctomap/mapping/MeasurementSource.h"
+#include "hoctomap/mapping/PreparedScan.h"
 #include "hoctomap/mapping/Reidentification.h"
 #include "hoctomap/mapping/Segmentation.h"
 #include "hoctomap/mapping/UpdateReport.h"
@@ -46,7 +47,13 @@ class HierarchyMapper {
                   MapHierarchy hierarchy);
 
   /// Integrates one measurement.
-  UpdateReport integrate(const Measurement& z);
+  UpdateReport integrate(const Measurement& z) { return integrate(z, prepare(z)); }
+
+  /// The part of the integration that does not look at the map: may run while another scan is integrated.
+  [[nodiscard]] PreparedScan prepare(const Measurement& z) const;
+
+  /// Integrates a measurement that has been prepared.
+  UpdateReport integrate(const Measurement& z, PreparedScan prepared);
 
   /// Applies a perceived movement (Section III-D) before scan number `scan`. A movement of a node that does
   /// not exist (any more) changes nothing and is a warning of the report.
@@ -57,7 +64,6 @@ class HierarchyMapper {
   [[nodiscard]] const std::vector<RemovedNode>& removed() const { return removed_; }
 
  private:
-  struct LabelledPart;
   struct NodeEvidence;
 
   std::vector<LabelledPart> segmentAndLabel(const Measurement& z) const;

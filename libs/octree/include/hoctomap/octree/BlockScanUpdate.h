@@ -17,7 +17,9 @@ enum class Instructions {
 /// a hundredth of the time.
 ///
 /// The voxels of a scan are collected as bits (two bitmaps, free and occupied), then the tree is updated in
-/// one pass. Memory beyond the tree: 32 KB for each block of 64^3 voxels that a beam meets.
+/// one pass. Memory beyond the tree: 4 KB for each 32^3 voxels that a beam meets, about 8 MB at a time and
+/// thread. Uses the threads of the calling oneTBB arena; the tree is the same for any number of them.
+/// The memory is kept for the next update: use one engine for all of them.
 ///
 /// A tree with change detection enabled is updated by the reference, which keeps the record of changed keys.
 /// One engine may serve several threads at once, each with its own tree.

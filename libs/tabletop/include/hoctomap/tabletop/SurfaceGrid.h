@@ -10,6 +10,8 @@
 
 namespace hoctomap {
 
+class ScanBlocks;
+
 /// A set of cells of a grid.
 using CellMask = std::vector<std::uint8_t>;
 
@@ -21,7 +23,7 @@ class SurfaceGrid {
   enum class Cell : std::uint8_t { unseen, open, hidden, surface };
 
   /// @param region part of the plane to look at; enlarged to whole cells.
-  SurfaceGrid(const Measurement& z, const Plane& plane, const Eigen::AlignedBox2d& region,
+  SurfaceGrid(const ScanBlocks& scan, const Plane& plane, const Eigen::AlignedBox2d& region,
               const TabletopSegmentationConfig& config);
 
   [[nodiscard]] double cellSize() const { return cell_; }
@@ -32,13 +34,19 @@ class SurfaceGrid {
 
   /// Cell below or above a point, `size()` if it is outside.
   [[nodiscard]] std::size_t cellOf(double x, double y) const {
-    const double column = (x - corner_.x()) / cell_;
-    const double row = (y - corner_.y()) / cell_;
-    if (!(column >= 0.0 && row >= 0.0 && column < columns_ && row < rows_)) return size();
-    return static_cast<std::size_t>(row) * static_cast<std::size_t>(columns_) +
-           static_cast<std::size_t>(column);
+    const double dx = x - corner_.x();
+    const double dy = y - corner_.y();
+    // Far outside, as most points of a scan are: spares the divisions.
+    if (!(dx >= 0.0 && dy >= 0.0 && dx <= reach_.x() && dy <= reach_.y())) return size();
+    const double column = dx / cell_;
+    const double row = dy / cell_;
+    if (!(column < columns_ && row < rows_)) return size();
+    return static_cast<std::size_t>(static_cast<int>(row)) * static_cast<std::size_t>(columns_) +
+           static_cast<std::size_t>(static_cast<int>(column));
   }
   [[nodiscard]] Eigen::Vector2d center(std::size_t cell) const;
+  /// Holds all cells, a little larger.
+  [[nodiscard]] Eigen::AlignedBox2d bounds() const { return {corner_, corner_ + reach_}; }
 
   /// Patches of surface of at least `least_cells` cells, largest first. Two cells are of one patch if a gap
   /// of at most `gap` metres parts them, or one of at most `hidden_gap` metres that is hidden from the
@@ -62,6 +70,7 @@ class SurfaceGrid {
   Eigen::Vector2d corner_;
   int columns_ = 0;
   int rows_ = 0;
+  Eigen::Vector2d reach_;  ///< m, from the corner: no less than the extent of the cells
   std::vector<Cell> cells_;
 };
 

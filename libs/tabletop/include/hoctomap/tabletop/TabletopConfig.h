@@ -44,6 +44,12 @@ struct TabletopSegmentationConfig {
   [[nodiscard]] double surfaceTolerance(double range, double drop) const {
     return plane_tolerance + noise(range) * std::min(1.0, std::abs(drop) / std::max(range, 1e-3));
   }
+  /// No less than `surfaceTolerance` at the root of `squared_range`, whatever the drop: spares most points of
+  /// a scan the square root.
+  [[nodiscard]] double largestTolerance(double squared_range) const {
+    constexpr double kRounding = 1.0 + 1e-9;
+    return (plane_tolerance + 3.0 * range_noise * squared_range) * kRounding;
+  }
   /// Height above the table from which a point at this range is more than paper or a bent table.
   [[nodiscard]] double flatHeight(double range) const { return min_object_height + noise(range); }
 };

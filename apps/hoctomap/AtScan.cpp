@@ -1,0 +1,22 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "AtScan.h"
+
+#include <iostream>
+
+#include "hoctomap/io/EscapedText.h"
+
+namespace hoctomap {
+
+void addAtScan(CLI::App& command, AtScan& at_scan, const std::string& name, const std::string& what) {
+  command.add_option(name, at_scan, what)->type_name("K");
+}
+
+void noteOlderState(const std::string& map, const Manifest& manifest, const AtScan& at_scan) {
+  if (!at_scan || manifest.scans > *at_scan) return;
+  const std::string state =
+      manifest.scans == 0 ? "before the first scan" : "after scan " + std::to_string(manifest.scans - 1);
+  std::cerr << "hoctomap: " << escapedText(map) << ": the newest state up to scan " << *at_scan << " is that "
+            << state << std::endl;
+}
+
+}  // namespace hoctomap

@@ -1,0 +1,91 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "NodeBoxes.h"
+
+#include <algorithm>
+#include <boost/geometry.hpp>
+#include <boost/geometry/index/rtree.hpp>
+#include <iterator>
+#include <unordered_map>
+#include <utility>
+
+#include "hoctomap/hierarchy/MapHierarchy.h"
+
+namespace hoctomap {
+
+namespace {
+
+namespace bg = boost::geometry;
+using Point = bg::model::point<double, 3, bg::cs::cartesian>;
+using Box = bg::model::box<Point>;
+
+constexpr double kHair = 1e-6;  // m: more than rounding makes of the corners of an oriented box
+constexpr double kFar = 1e9;    // m: the R-tree's arithmetic does not like infinity
+
+Box toBox(const Eigen::AlignedBox3d& box) {
+  const Eigen::Vector3d low = (box.min().array() - kHair).max(-kFar).min(kFar);
+  const Eigen::Vector3d high = (box.max().array() + kHair).max(-kFar).min(kFar);
+  return {{low.x(), low.y(), low.z()}, {high.x(), high.y(), high.z()}};
+}
+
+}  // namespace
+
+struct NodeBoxes::Index {
+  using Entry = std::pair<Box, std::uint32_t>;
+  struct Node {
+    bool touched = false;
+    Eigen::AlignedBox3d indexed;  ///< as it is in the tree; empty: it is not
+  };
+
+  bg::index::rtree<Entry, bg::index::quadratic<16>> tree;
+  std::unordered_map<std::uint32_t, Node> nodes;
+  std::vector<NodeId> touched;
+
+  void takeOut(NodeId id, Node& node) {
+    if (!node.indexed.isEmpty()) tree.remove(Entry{toBox(node.indexed), id.value});
+    node.indexed.setEmpty();
+  }
+
+  void refresh(const MapHierarchy& hierarchy) {
+    for (const NodeId id : touched) {
+      const auto found = nodes.find(id.value);
+      if (found == nodes.end()) continue;  // removed meanwhile
+      Node& node = found->second;
+      node.touched = false;
+      const Eigen::AlignedBox3d bounds = worldBounds(hierarchy.box(id));
+      if (bounds.min() == node.indexed.min() && bounds.max() == node.indexed.max()) continue;
+      takeOut(id, node);
+      node.indexed = bounds;
+      if (!bounds.isEmpty()) tree.insert(Entry{toBox(bounds), id.value});
+    }
+    touched.clear();
+  }
+};
+
+NodeBoxes::NodeBoxes() : index_(std::make_unique<Index>()) {}
+NodeBoxes::~NodeBoxes() = default;
+
+void NodeBoxes::touch(NodeId id) {
+  Index::Node& node = index_->nodes[id.value];
+  if (std::exchange(node.touched, true)) return;
+  index_->touched.push_back(id);
+}
+
+void NodeBoxes::erase(NodeId id) {
+  const auto found = index_->nodes.find(id.value);
+  if (found == index_->nodes.end()) return;
+  index_->takeOut(id, found->second);
+  index_->nodes.erase(found);
+}
+
+std::vector<NodeId> NodeBoxes::near(const Eigen::AlignedBox3d& world, const MapHierarchy& hierarchy) {
+  index_->refresh(hierarchy);
+  std::vector<NodeId> ids;
+  if (world.isEmpty()) return ids;
+  for (auto found = index_->tree.qbegin(bg::index::intersects(toBox(world))); found != index_->tree.qend();
+       ++found)
+    ids.push_back(NodeId{found->second});
+  std::sort(ids.begin(), ids.end());
+  return ids;
+}
+
+}  // namespace hoctomap

@@ -1,0 +1,35 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <Eigen/Geometry>
+#include <memory>
+#include <vector>
+
+#include "hoctomap/hierarchy/NodeId.h"
+
+namespace hoctomap {
+
+class MapHierarchy;
+
+/// Where the nodes of a hierarchy are: an R-tree over their boxes in the world, kept up to date lazily. Only
+/// nodes that were touched since the last question are looked at again.
+class NodeBoxes {
+ public:
+  NodeBoxes();
+  ~NodeBoxes();
+  NodeBoxes(const NodeBoxes&) = delete;
+  NodeBoxes& operator=(const NodeBoxes&) = delete;
+
+  /// The node is new, or its pose or map may change from now on.
+  void touch(NodeId id);
+  void erase(NodeId id);
+
+  /// Nodes of `hierarchy` whose box in the world meets `world`, and some that miss it by a hair; ascending.
+  [[nodiscard]] std::vector<NodeId> near(const Eigen::AlignedBox3d& world, const MapHierarchy& hierarchy);
+
+ private:
+  struct Index;
+  std::unique_ptr<Index> index_;
+};
+
+}  // namespace hoctomap

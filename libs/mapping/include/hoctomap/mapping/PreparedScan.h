@@ -1,0 +1,29 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <vector>
+
+#include "hoctomap/geometry/Obb.h"
+#include "hoctomap/hierarchy/Label.h"
+#include "hoctomap/hierarchy/NodeId.h"
+#include "hoctomap/mapping/Segmentation.h"
+
+namespace hoctomap {
+
+/// A segment with its label, and what association asks of it.
+struct LabelledPart {
+  Structure structure;
+  PointIndices points;
+  PointCloud world_points;
+  Label label;
+  Obb box;
+  NodeId node;  ///< that took it
+};
+
+/// A scan after the first step of its integration, which does not depend on the map: S(z) and L(z).
+struct PreparedScan {
+  std::vector<LabelledPart> parts;
+  double seconds = 0.0;  ///< wall time that it took
+};
+
+}  // namespace hoctomap
