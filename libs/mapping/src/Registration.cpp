@@ -83,6 +83,9 @@ class Registrar {
       none.verdict = Match::ambiguous;  // too few points to say anything
       return none;
     }
+    Registration rest = judged(Eigen::Isometry3f::Identity());
+    rest.rest_score = rest.score;
+    if (rest.score >= config_.at_rest) return rest;
     std::vector<Registration> candidates;
     for (const Eigen::Isometry3f& start : coarseMotions()) candidates.push_back(judged(refined(start, 8)));
     const Registration* best = &*std::max_element(candidates.begin(), candidates.end(), fitsWorse);
@@ -95,7 +98,7 @@ class Registrar {
     }
     const Registration polished = judged(refined(best->motion.cast<float>(), 16));
     Registration result = fitsWorse(polished, *best) ? *best : polished;
-    result.rest_score = judged(Eigen::Isometry3f::Identity()).score;
+    result.rest_score = rest.score;
     return result;
   }
 

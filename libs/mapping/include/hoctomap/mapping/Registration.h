@@ -29,6 +29,7 @@ struct RegistrationConfig {
   double max_seen_through = 0.12;   ///< share of the model that the scan may contradict
   double min_visible = 0.25;        ///< share of the model that the scan must show
   double rival_score = 0.1;         ///< a pose within it is as good: the smaller turn is kept
+  double at_rest = 0.9;             ///< a model that fits this well where it is has not moved
   int yaw_starts = 18;              ///< turns about the vertical that are tried
 };
 
