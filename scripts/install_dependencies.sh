@@ -10,7 +10,7 @@ packages=(
   libeigen3-dev libmrpt-poses-dev libmrpt-system-dev libmrpt-containers-dev
   libmrpt-obs-dev libmrpt-maps-dev libmrpt-opengl-dev
   # maps and search
-  liboctomap-dev libnanoflann-dev libtbb-dev libmimalloc-dev
+  liboctomap-dev libnanoflann-dev libboost-dev libtbb-dev libmimalloc-dev
   # command line, configuration, files
   libcli11-dev libsimpleini-dev libyaml-cpp-dev nlohmann-json3-dev libssl-dev libpng-dev zlib1g-dev
   # the simulated sensor

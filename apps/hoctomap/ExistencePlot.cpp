@@ -121,7 +121,7 @@ std::string panels(const NodeLife& life) {
       "\nunset arrow\nunset label\nunset title\n"
       "set origin 0,0\nset size 1,0.42\nset tmargin 2\nset bmargin 3.2\nset format x '%g'\n"
       "set xlabel 'scan'\nset ylabel 'beams' offset -0.5,0\nset yrange [0:*]\nset ytics autofreq\n";
-  if (life.evidence.empty()) return text + "unset key\nplot NaN notitle\nunset multiplot\n";
+  if (life.evidence.empty()) return text + "unset key\nset yrange [0:1]\nplot -1 notitle\nunset multiplot\n";
   return text +
          "set style fill solid 0.85 noborder\nset boxwidth 0.8\n"
          "plot $evidence using 1:($2 + $3 + $4) with boxes lc rgb '#bbbbbb' title 'occluded', \\\n"
