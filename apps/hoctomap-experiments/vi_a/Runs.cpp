@@ -120,8 +120,9 @@ class ViARun {
     const bool is_check = mm == finestOfStock();
     if (!fits || mm < options_.stock_part_to_mm || (mm >= options_.stock_to_mm && !is_check)) return;
     Task task = taskOf(set, mm, MapMethod::stock);
-    task.scans.every = std::max<std::size_t>(1, set.scans / options_.stock_part_scans);
+    task.scans.every = (set.scans + options_.stock_part_scans - 1) / options_.stock_part_scans;
     task.scans.start = task.scans.every / 2;
+    if (is_check && task.scans.every == 1) return;  // the part would be the whole
     const auto figures = run(set, mm, MapMethod::stock, task, 0);
     if (!figures) return;
     const double all =
