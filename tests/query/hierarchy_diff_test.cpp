@@ -231,11 +231,27 @@ TEST(Diff, AnotherShapeOfMuchTheSameSizeIsChanged) {
   Solids before = test::randomTable(rng, 4);
   Solids after = before;
   before.push_back(test::onTable({0.12, 0.14, 0.10}, false, 0.15, 0.36, 0.4));
-  after.push_back(test::onTable({0.12, 0.14, 0.19}, false, 0.15, 0.36, 0.4));  // a lid stands open
+  after.push_back(test::onTable({0.12, 0.14, 0.14}, false, 0.15, 0.36, 0.4));  // with its lid
   const auto changes = diff(mapOf(before, viewsAround(3)), mapOf(after, viewsAround(3)), {});
   ASSERT_EQ(changes.size(), 1U) << describe(changes);
   EXPECT_EQ(changes[0].kind, ChangeKind::changed);
   EXPECT_TRUE(changes[0].node_a && changes[0].node_b);
+}
+
+TEST(Diff, AThingMayMoveToWhereAnotherOneStood) {
+  Rng rng(6);
+  Solids before = test::randomTable(rng, 4);
+  Solids after = before;
+  const Eigen::Vector3d tin(0.07, 0.07, 0.08);  // it fits into the box that was there
+  before.push_back(test::onTable({0.10, 0.13, 0.09}, false, -0.2, 0.36, 0.3));
+  before.push_back(test::onTable(tin, true, 0.2, 0.36, 0.0));
+  after.push_back(test::onTable(tin, true, -0.2, 0.36, 0.0));
+  const auto changes = diff(mapOf(before, viewsAround(3)), mapOf(after, viewsAround(3)), {});
+  ASSERT_EQ(changes.size(), 2U) << describe(changes);
+  EXPECT_EQ(changes[0].kind, ChangeKind::removed);
+  EXPECT_EQ(changes[0].node_a, NodeId{6});
+  EXPECT_EQ(changes[1].kind, ChangeKind::moved);
+  EXPECT_EQ(changes[1].node_a, NodeId{7});
 }
 
 TEST(Diff, ATableThatMovedCarriesItsObjects) {

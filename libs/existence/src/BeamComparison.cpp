@@ -77,7 +77,7 @@ void BeamComparison::collectBeams(const RangeBuffer& node, const RangeBuffer* su
     for (int u = node.u0(); u <= node.u1(); ++u) {
       const float expected = node.at(u, v);
       if (expected == RangeBuffer::kEmpty) continue;
-      const int k = std::max(1, static_cast<int>(std::lround(view_.focal() * config_.window / expected)));
+      const int k = std::max(1, static_cast<int>(view_.focal() * config_.window / expected + 0.5));
       // At the silhouette mixed pixels and halos say nothing.
       if (!empty.anyAround(u, v, k)) pixels.push_back({u, v, k});
     }

@@ -32,7 +32,8 @@ void Differ::compareInPlace() {
 
 Differ::Known Differ::inPlace(const Thing& thing, const PlaceEvidence& evidence, const MapSide& other,
                               const PlaceEvidence& reverse) const {
-  Known known{evidence.cover(thing), Fate::open, {}};
+  Known known;
+  known.cover = evidence.cover(thing);
   const double overlap = known.cover.overlap();
   if (overlap < config_.same_overlap) return known;
   // Much of it must be there; or, where the other map has seen little of it, that little must be all it has.
@@ -89,13 +90,44 @@ bool Differ::isPresent(const Known& known) {
   return known.fate == Fate::present || known.fate == Fate::doubtful;
 }
 
+/// What may have come to its place, or gone from it: what the other map does not have, or has only in so far
+/// as it has something else there that is no longer there. Inside of such things nothing was seen, and yet it
+/// is known.
+void Differ::findSuspects(const MapSide& side, std::vector<Known>& known, const PlaceEvidence& evidence,
+                          const MapSide& other, const std::vector<Known>& known_other) const {
+  std::vector<Obb> filled;
+  for (std::size_t i = 0; i < known_other.size(); ++i) {
+    if (!isPresent(known_other[i])) filled.push_back(other.things()[i].box);
+  }
+  for (std::size_t i = 0; i < known.size(); ++i) {
+    const Thing& thing = side.things()[i];
+    const auto isSameThing = [&](std::size_t k) {
+      const Thing& there = other.things()[k];
+      return !isMissing(known_other[k]) && there.label == thing.label && touches(thing, there) &&
+             evidence.plainOverlap(thing, kStill, there) >= kLeastMatched;
+    };
+    known[i].may_be_new = isMissing(known[i]);
+    if (isPresent(known[i])) {
+      // A ball where a box stood lies close to the box's sides, and yet it has come.
+      known[i].may_be_new = true;
+      for (std::size_t k = 0; k < known_other.size(); ++k) {
+        if (isSameThing(k)) known[i].may_be_new = false;
+      }
+    }
+    if (known[i].may_be_new) known[i].cover.seen = evidence.seenShare(thing, filled);
+  }
+}
+
 void Differ::findMovedElsewhere() {
+  findSuspects(a_, known_a_, a_in_b_, b_, known_b_);
+  findSuspects(b_, known_b_, b_in_a_, a_, known_a_);
   std::vector<Candidate> candidates;
   for (std::size_t a = 0; a < known_a_.size(); ++a) {
     for (std::size_t b = 0; b < known_b_.size(); ++b) {
       const Thing& in_a = a_.things()[a];
       const Thing& in_b = b_.things()[b];
-      if (in_a.label != in_b.label || !isMissing(known_a_[a]) || !isMissing(known_b_[b])) continue;
+      if (in_a.label != in_b.label || !known_a_[a].may_be_new || !known_b_[b].may_be_new) continue;
+      if (!isMissing(known_a_[a]) && !isMissing(known_b_[b])) continue;
       // Not seen at the old place is not gone from it; not seen at the new one is not new there.
       if (std::min(known_a_[a].cover.seen, known_b_[b].cover.seen) < config_.seen_for_motion) continue;
       const auto motion = findMotion(in_a, in_b, maps_, config_);
@@ -170,16 +202,10 @@ void Differ::reportRest() {
 }
 
 void Differ::reportMissing(const MapSide& side, std::vector<Known>& known, bool in_a) {
-  // Inside of what has come to a place nothing is seen, and yet it is known.
-  std::vector<Obb> newcomers;
-  const std::vector<Known>& others = in_a ? known_b_ : known_a_;
-  for (std::size_t i = 0; i < others.size(); ++i) {
-    if (!isPresent(others[i])) newcomers.push_back((in_a ? b_ : a_).things()[i].box);
-  }
   for (std::size_t i = 0; i < known.size(); ++i) {
     if (!isMissing(known[i])) continue;
     const Thing& thing = side.things()[i];
-    const double seen = (in_a ? a_in_b_ : b_in_a_).seenShare(thing, newcomers);
+    const double seen = known[i].cover.seen;
     const ChangeKind gone = in_a ? ChangeKind::removed : ChangeKind::added;
     report(seen >= config_.seen_share ? gone : ChangeKind::unobservable, in_a ? &thing : nullptr,
            in_a ? nullptr : &thing, seen)

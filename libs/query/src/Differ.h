@@ -27,6 +27,7 @@ class Differ {
   struct Known {
     Cover cover;
     Fate fate = Fate::open;
+    bool may_be_new = false;
     std::string detail;
   };
   struct Candidate {
@@ -41,6 +42,8 @@ class Differ {
   [[nodiscard]] bool touches(const Thing& a, const Thing& b) const;
   [[nodiscard]] bool isContradicted(std::size_t a, std::size_t b) const;
   void considerShift(std::size_t a, std::size_t b, std::vector<Candidate>& shifted);
+  void findSuspects(const MapSide& side, std::vector<Known>& known, const PlaceEvidence& evidence,
+                    const MapSide& other, const std::vector<Known>& known_other) const;
   void settle(std::vector<Candidate> candidates, bool ask_for_rivals);
   [[nodiscard]] static bool isMissing(const Known& known);
   [[nodiscard]] static bool isPresent(const Known& known);

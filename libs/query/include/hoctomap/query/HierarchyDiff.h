@@ -44,7 +44,7 @@ struct Change {
 struct DiffConfig {
   double near = 0.006;            ///< m; surfaces nearer than this, plus half a voxel of each map, are one
   double same_overlap = 0.75;     ///< a thing is in the other map if that share of what can be compared is
-  double least_overlap = 0.35;    ///< below it the other thing in its place is another one, not a changed one
+  double least_overlap = 0.5;     ///< below it the other thing in its place is another one, not a changed one
   double clear_overlap = 0.9;     ///< above it nobody asks for a motion
   double seen_share = 0.3;        ///< share of a thing's place that must be seen to call it added or removed
   double seen_for_motion = 0.25;  ///< share of the old and of the new place that must be seen for a motion
