@@ -15,6 +15,9 @@ if(HOCTOMAP_CCACHE AND NOT CMAKE_CXX_COMPILER_LAUNCHER)
   set(CMAKE_CXX_COMPILER_LAUNCHER "${HOCTOMAP_CCACHE}")
 endif()
 
+# Lines in stack traces and profiles; what -g writes beyond takes a quarter of the compile time.
+string(REPLACE "-g" "-g1" CMAKE_CXX_FLAGS_RELWITHDEBINFO "${CMAKE_CXX_FLAGS_RELWITHDEBINFO}")
+
 add_library(hoctomap_flags INTERFACE)
 target_compile_options(hoctomap_flags INTERFACE
   -Wall -Wextra -Wpedantic -Wshadow -Wconversion -Wsign-conversion -Wold-style-cast
