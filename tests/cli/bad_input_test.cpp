@@ -111,6 +111,17 @@ TEST(BadConfiguration, NamesAllProblemsTogether) {
   EXPECT_FALSE(std::filesystem::exists(folder / "out"));
 }
 
+TEST(MemoryLimit, RefusesTheScanThatWouldExceedItAndKeepsTheMap) {
+  const TemporaryFolder folder;
+  test::simulate("demo", folder / "a.rawlog");
+  test::build(folder / "a.rawlog", folder / "map", {"--max-scans", "1"});
+  const auto before = test::reproducibleFiles(folder / "map");
+  const auto refused = test::build(folder / "a.rawlog", folder / "map",
+                                   {"--overwrite", "--set", "label.object.max_memory=0.01"}, 6);
+  EXPECT_NE(refused.err.find("[label.object] max_memory"), std::string::npos) << refused.err;
+  EXPECT_EQ(test::reproducibleFiles(folder / "map"), before);
+}
+
 TEST(BadOutput, IsExit5) {
   const TemporaryFolder folder;
   test::simulate("demo", folder / "a.rawlog");

@@ -78,5 +78,58 @@ TEST_F(MovedObjects, ThatAreStillThereAreNotSought) {
   EXPECT_EQ(count(report, NodeEventKind::created), 1U);
 }
 
+TEST_F(MovedObjects, ThatAppearedBeforeTheOldPlaceWasSeenEmptyGetTheirNodeBack) {
+  (*m_.evidence)[kObject] = Evidence{};  // out of view
+  const UpdateReport appears = m_.integrate(Scan(2, {kFloor, kTable, angle(0.2, 0.15, 0.6)}));
+  ASSERT_EQ(count(appears, NodeEventKind::created), 1U);
+  const NodeId again{3};
+  (*m_.evidence)[kObject] = seen(false);
+  (*m_.evidence)[again] = seen(true);
+  const UpdateReport empty = m_.integrate(Scan(3, {kFloor, kTable, angle(0.2, 0.15, 0.6)}));
+  EXPECT_EQ(count(empty, NodeEventKind::reidentified), 1U);
+  EXPECT_EQ(count(empty, NodeEventKind::merged), 1U);
+  EXPECT_EQ(count(empty, NodeEventKind::removed), 0U);
+  ASSERT_TRUE(m_.h().contains(kObject));
+  EXPECT_FALSE(m_.h().contains(again));
+  EXPECT_GT(m_.h().node(kObject).existence(), 0.9);
+  const Eigen::Vector3d at = m_.h().box(kObject).center();
+  EXPECT_LT((at - angle(0.2, 0.15, 0.6).points[0].cast<double>()).norm(), 0.15);
+}
+
+TEST(ReplacedObjects, AreRemovedAndTheirSuccessorIsANewNode) {
+  // A low plate, seen from above, and then a tall box in its place: the beams end on the box, where the plate
+  // would hide behind it, so that nothing contradicts the plate but the space that was free.
+  Mapper m;
+  const auto plate = Piece{Structure::cluster, patch(0.2, 0.1, 0.72, 0.06, 0.06, 0.005)};
+  const auto tall = Piece{Structure::cluster, patch(0.2, 0.1, 1.03, 0.07, 0.07, 0.32)};
+  const auto floor = Piece{Structure::remainder, patch(0.2, 0.1, 0.0, 0.7, 0.7, 0.01)};
+  const auto wall = Piece{Structure::remainder, patch(1.5, 0.0, 1.0, 0.01, 1.0, 1.0)};
+  for (std::uint64_t k = 0; k < 3; ++k) m.integrate(Scan(k, {floor, wall, kTable, plate}));
+  const NodeId old{2};
+  ASSERT_TRUE(m.h().contains(old));
+  (*m.evidence)[old] = seen(true);
+  std::size_t created = 0;
+  std::size_t removed = 0;
+  for (std::uint64_t k = 3; k < 8; ++k) {
+    const UpdateReport report = m.integrate(Scan(k, {floor, wall, kTable, tall}));
+    created += count(report, NodeEventKind::created);
+    removed += count(report, NodeEventKind::removed);
+  }
+  EXPECT_EQ(created, 1U);
+  EXPECT_EQ(removed, 1U);
+  EXPECT_FALSE(m.h().contains(old));
+}
+
+TEST(ReplacedObjects, AnObjectOfWhichMoreIsSeenIsTheSame) {
+  Mapper m;
+  const auto left = Piece{Structure::cluster, patch(0.2, 0.1, 0.75, 0.04, 0.03, 0.04, 2)};
+  const auto whole = Piece{Structure::cluster, patch(0.23, 0.1, 0.75, 0.07, 0.03, 0.04, 3)};
+  for (std::uint64_t k = 0; k < 3; ++k) m.integrate(Scan(k, {kFloor, kTable, left}));
+  (*m.evidence)[NodeId{2}] = seen(true);
+  const UpdateReport report = m.integrate(Scan(3, {kFloor, kTable, whole}));
+  EXPECT_EQ(count(report, NodeEventKind::created), 0U);
+  EXPECT_EQ(count(report, NodeEventKind::removed), 0U);
+}
+
 }  // namespace
 }  // namespace hoctomap

@@ -5,33 +5,18 @@
 
 #include <algorithm>
 #include <array>
-#include <chrono>
 #include <utility>
 
 #include "ContestedNodes.h"
-#include "MovedObjects.h"
+#include "NodeEvidence.h"
 #include "NodeUpdate.h"
-#include "PieceVoting.h"
+#include "StageTimer.h"
 #include "hoctomap/geometry/Errors.h"
 #include "hoctomap/geometry/PcaFrame.h"
 
 namespace hoctomap {
 
 namespace {
-
-/// Adds the wall time of a scope to a stage.
-class StageTimer {
- public:
-  explicit StageTimer(double& seconds) : seconds_(seconds), start_(Clock::now()) {}
-  ~StageTimer() { seconds_ += std::chrono::duration<double>(Clock::now() - start_).count(); }
-  StageTimer(const StageTimer&) = delete;
-  StageTimer& operator=(const StageTimer&) = delete;
-
- private:
-  using Clock = std::chrono::steady_clock;
-  double& seconds_;
-  Clock::time_point start_;
-};
 
 MapHierarchy makeRoot(const LabelProfiles& profiles) {
   const auto found = profiles.find(labels::background);
@@ -47,15 +32,6 @@ double smallerRange(double a, double b) {
 }
 
 }  // namespace
-
-struct HierarchyMapper::NodeEvidence {
-  std::map<NodeId, Evidence> by_node;
-
-  [[nodiscard]] bool contradicts(NodeId id) const {
-    const auto found = by_node.find(id);
-    return found != by_node.end() && found->second.contradicts();
-  }
-};
 
 HierarchyMapper::HierarchyMapper(MappingConfig config, LabelProfiles profiles, MappingStrategies strategies)
     : HierarchyMapper(config, profiles, std::move(strategies), makeRoot(profiles)) {}
@@ -84,6 +60,12 @@ UpdateReport HierarchyMapper::integrate(const Measurement& z, PreparedScan prepa
     evidence = gatherEvidence(z);
   }
 
+  // What has moved is put where the scan shows it, so that its segments fall into its box (III-D).
+  {
+    const StageTimer timer(report.seconds.associate);
+    followMovedObjects(z, parts, evidence, report);
+  }
+
   // The background first, then planes, then clusters: so that parents exist when their children come.
   for (const Structure structure : {Structure::remainder, Structure::plane, Structure::cluster}) {
     std::vector<LabelledPart*> group;
@@ -101,7 +83,11 @@ UpdateReport HierarchyMapper::integrate(const Measurement& z, PreparedScan prepa
     updateMaps(z, group, nodes, report);
   }
 
-  // Nodes that turn out to be pieces of others join them.
+  // A node that is seen to be gone may have been found elsewhere before; pieces of others join them.
+  {
+    const StageTimer timer(report.seconds.associate);
+    matchLate(z, evidence, report);
+  }
   mergePieces(z, parts, evidence, report);
 
   // Eq. 8: nodes whose probability of existence falls below 0.5 are removed.
@@ -127,7 +113,7 @@ std::vector<LabelledPart> HierarchyMapper::segmentAndLabel(const Measurement& z)
   parts.reserve(segments.size());
   for (Segment& segment : segments) {
     if (segment.points.empty()) continue;
-    LabelledPart part{segment.structure, {}, {}, strategies_.labeling->label(z, segment), {}, {}};
+    LabelledPart part{segment.structure, {}, {}, strategies_.labeling->label(z, segment), {}, {}, {}};
     static_cast<void>(profile(part.label));  // a label without a profile is an error at once
     part.points = std::move(segment.points);
     part.world_points.reserve(part.points.size());
@@ -154,56 +140,37 @@ HierarchyMapper::NodeEvidence HierarchyMapper::gatherEvidence(const Measurement&
   return gathered;
 }
 
-std::vector<NodeId> HierarchyMapper::associate(const Measurement& z, const std::vector<LabelledPart*>& parts,
-                                               NodeEvidence& evidence, UpdateReport& report) {
+std::vector<std::optional<NodeId>> HierarchyMapper::associateByBox(const std::vector<LabelledPart*>& parts,
+                                                                   const NodeEvidence& evidence) const {
   // A node that this scan contradicts must not swallow what has moved into its box.
   const Admissible admissible = [&evidence](NodeId id) { return !evidence.contradicts(id); };
-  std::vector<std::optional<NodeId>> found;
+  std::vector<SegmentInQuestion> segments;
   for (const LabelledPart* part : parts) {
-    found.push_back(strategies_.association->associate(
-        hierarchy_, LabelledSegment{part->label, &part->world_points, part->box}, admissible));
-    // There is one background, whether or not any of it has been seen.
-    if (!found.back() && part->label == hierarchy_.root().label()) found.back() = kRootId;
+    const LabelledSegment segment{part->label, &part->world_points, part->box};
+    segments.push_back({part->label, &part->world_points,
+                        part->moved_node
+                            ? part->moved_node
+                            : strategies_.association->associate(hierarchy_, segment, admissible)});
   }
-  followMovedObjects(z, parts, found, evidence, report);
-  std::vector<NodeId> nodes;
+  if (config_.contest_at_surface) releaseStrangers(hierarchy_, segments);
+  std::vector<std::optional<NodeId>> nodes;
   for (std::size_t i = 0; i < parts.size(); ++i) {
-    nodes.push_back(found[i] ? *found[i] : createNode(z, *parts[i], report));
-    parts[i]->node = nodes.back();
+    nodes.push_back(parts[i]->moved_node ? parts[i]->moved_node : segments[i].node);
   }
   return nodes;
 }
 
-void HierarchyMapper::followMovedObjects(const Measurement& z, const std::vector<LabelledPart*>& parts,
-                                         std::vector<std::optional<NodeId>>& found, NodeEvidence& evidence,
-                                         UpdateReport& report) {
-  if (parts.empty() || parts.front()->structure != Structure::cluster) return;
-  std::vector<SegmentInQuestion> segments;
+std::vector<NodeId> HierarchyMapper::associate(const Measurement& z, const std::vector<LabelledPart*>& parts,
+                                               const NodeEvidence& evidence, UpdateReport& report) {
+  std::vector<NodeId> nodes;
+  const auto found = associateByBox(parts, evidence);
   for (std::size_t i = 0; i < parts.size(); ++i) {
-    segments.push_back({parts[i]->label, &parts[i]->world_points, found[i]});
+    // There is one background, whether or not any of it has been seen.
+    const bool is_root = !found[i] && parts[i]->label == hierarchy_.root().label();
+    nodes.push_back(found[i] ? *found[i] : is_root ? kRootId : createNode(z, *parts[i], report));
+    parts[i]->node = nodes.back();
   }
-  if (config_.contest_at_surface) releaseStrangers(hierarchy_, segments);
-  for (std::size_t i = 0; i < parts.size(); ++i) found[i] = segments[i].node;
-  MovedObjects moved = findMovedObjects(hierarchy_, z, segments, evidence.by_node, config_.reidentification);
-  for (const MovedObject& object : moved.found) {
-    const Eigen::Isometry3d world_T_node = toIsometry(hierarchy_.world_T_node(object.node));
-    // III-D: t_i <- t_i o t, with t in the node's frame.
-    hierarchy_.move(
-        object.node,
-        poseFromMatrix((world_T_node.inverse() * object.registration.motion * world_T_node).matrix()));
-    MapNode& node = hierarchy_.node(object.node);
-    hierarchy_.reparent(object.node, strategies_.relations.deepestAncestor(
-                                         hierarchy_, hierarchy_.view(object.node), &object.node));
-    found[object.segment] = object.node;
-    // The scan shows the node, although not where it was.
-    Evidence& e = evidence.by_node.at(object.node);
-    std::swap(e.present, e.absent);
-    e.p_measurement = profile(node.label()).existence.p_present;
-    report.events.push_back({NodeEventKind::reidentified, node.id(), node.label(), node.existence(),
-                             poseFromMatrix(object.registration.motion.matrix()).asString() + " score " +
-                                 std::to_string(object.registration.score).substr(0, 5)});
-  }
-  report.warnings.insert(report.warnings.end(), moved.ambiguous.begin(), moved.ambiguous.end());
+  return nodes;
 }
 
 NodeId HierarchyMapper::createNode(const Measurement& z, const LabelledPart& part, UpdateReport& report) {
@@ -274,66 +241,6 @@ void HierarchyMapper::adoptRelated(const std::vector<NodeId>& created) {
       if (id != above && relations.adopts(hierarchy_, above, id)) hierarchy_.reparent(id, above);
     }
   }
-}
-
-void HierarchyMapper::mergePieces(const Measurement& z, const std::vector<LabelledPart>& parts,
-                                  const NodeEvidence& evidence, UpdateReport& report) {
-  std::vector<TakenSegment> taken;
-  for (const LabelledPart& part : parts) taken.push_back({part.node, &part.world_points});
-  for (const auto& [piece, e] : evidence.by_node) {
-    const auto whole = voteOnPiece(hierarchy_, piece, e, taken);
-    if (!whole) continue;
-    MapNode& merged = hierarchy_.node(*whole);
-    const Pose world_T_piece = hierarchy_.world_T_node(piece);
-    merged.map().absorb(hierarchy_.node(piece).map(),
-                        toIsometry(-hierarchy_.world_T_node(*whole) + world_T_piece));
-    merged.version = z.scan;
-    merged.first_scan = std::min(merged.first_scan, hierarchy_.node(piece).first_scan);
-    removed_.push_back({hierarchy_.remove(piece), world_T_piece, z.scan});
-    const MapNode& gone = removed_.back().node;
-    report.events.push_back({NodeEventKind::merged, piece, gone.label(), gone.existence(),
-                             "into node " + std::to_string(whole->value)});
-  }
-}
-
-void HierarchyMapper::applyExistence(const Measurement& z, const NodeEvidence& evidence,
-                                     UpdateReport& report) {
-  for (const auto& [id, e] : evidence.by_node) {
-    if (e.present + e.absent + e.occluded == 0 || !hierarchy_.contains(id)) {
-      continue;  // out of view, or merged just now
-    }
-    MapNode& node = hierarchy_.node(id);
-    if (e.informative) {
-      const ExistenceFilter filter(profile(node.label()).existence);
-      node.existence_log_odds = filter.update(node.existence_log_odds, e.p_measurement);
-    }
-    report.existence.push_back({node.id(), e, node.existence()});
-  }
-  for (const auto& [id, e] : evidence.by_node) {
-    if (!hierarchy_.contains(id) || !ExistenceFilter::isGone(hierarchy_.node(id).existence_log_odds))
-      continue;
-    const Pose world_T_node = hierarchy_.world_T_node(id);
-    removed_.push_back({hierarchy_.remove(id), world_T_node, z.scan});
-    const MapNode& node = removed_.back().node;
-    report.events.push_back(
-        {NodeEventKind::removed, id, node.label(), node.existence(), "existence below 0.5"});
-  }
-}
-
-UpdateReport HierarchyMapper::integrate(const ObjectMotion& motion, std::uint64_t scan) {
-  UpdateReport report;
-  report.scan = scan;
-  report.stamp = motion.stamp;
-  if (!hierarchy_.contains(motion.node) || motion.node == kRootId) {
-    report.warnings.push_back("motion of node " + std::to_string(motion.node.value) +
-                              " ignored: there is no such movable node");
-    return report;
-  }
-  hierarchy_.move(motion.node, motion.motion);  // t_i <- t_i o t
-  const MapNode& node = hierarchy_.node(motion.node);
-  report.events.push_back(
-      {NodeEventKind::moved, node.id(), node.label(), node.existence(), motion.motion.asString()});
-  return report;
 }
 
 const LabelProfile& HierarchyMapper::profile(const Label& label) const {

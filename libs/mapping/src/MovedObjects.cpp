@@ -5,7 +5,7 @@
 #include <cmath>
 #include <functional>
 
-#include "hoctomap/existence/RangeView.h"
+#include "SurfacePoints.h"
 
 namespace hoctomap {
 
@@ -31,30 +31,10 @@ std::vector<DoubtfulNode> doubtfulNodes(const MapHierarchy& hierarchy,
     const Label& label = hierarchy.node(id).label();
     if (std::none_of(segments.begin(), segments.end(), [&](const auto& s) { return s.label == label; }))
       continue;
-    DoubtfulNode node{id, evidence.contradicts(), {}};
-    const Eigen::Isometry3f world_T_node = toIsometry(hierarchy.world_T_node(id)).cast<float>();
-    for (const auto& voxel : hierarchy.node(id).map().occupiedVoxels()) {
-      node.world_voxels.push_back(world_T_node * voxel);
-    }
+    DoubtfulNode node{id, evidence.contradicts(), worldSurface(hierarchy, id)};
     doubtful.push_back(std::move(node));
   }
   return doubtful;
-}
-
-/// What a scan says of places: only a range image shows more than its own points.
-std::function<Sight(const Eigen::Vector3f&)> sightOf(const Measurement& z, const RangeView& view,
-                                                     const ReidentificationConfig& config) {
-  if (!z.image) return nullptr;
-  return [&view, &config](const Eigen::Vector3f& p) {
-    const auto pixel = view.project(p);
-    if (!pixel) return Sight::hidden;
-    const float measured =
-        view.measured(static_cast<int>(std::lround(pixel->u)), static_cast<int>(std::lround(pixel->v)));
-    const auto range = static_cast<double>(pixel->range);
-    const auto tolerance = static_cast<float>(config.registration.near + 3.0 * config.noise.sigma(range));
-    if (measured == 0.0F || measured < pixel->range - tolerance) return Sight::hidden;
-    return measured > pixel->range + tolerance ? Sight::seen_through : Sight::surface;
-  };
 }
 
 struct Fit {
@@ -73,8 +53,11 @@ bool hasRival(const Fit& fit, const std::vector<Fit>& fits, double margin) {
 
 class Finder {
  public:
-  Finder(const MapHierarchy& hierarchy, const Measurement& z, const ReidentificationConfig& config)
-      : hierarchy_(hierarchy), z_(z), config_(config), view_(z), sight_(sightOf(z, view_, config)) {}
+  Finder(const MapHierarchy& hierarchy, const Eigen::Vector3d& origin, const ScanSight& sight,
+         const ReidentificationConfig& config)
+      : hierarchy_(hierarchy), origin_(origin), config_(config) {
+    if (sight.hasImage()) sight_ = std::cref(sight);
+  }
 
   [[nodiscard]] MovedObjects find(std::span<const SegmentInQuestion> segments,
                                   const std::vector<DoubtfulNode>& doubtful) const {
@@ -113,12 +96,9 @@ class Finder {
   }
 
   [[nodiscard]] Registration registered(const DoubtfulNode& node, const SegmentInQuestion& segment) const {
-    RegistrationConfig config = config_.registration;
     const double range =
-        (segment.world_points->front().cast<double>() - z_.origin()).norm();  // all points are about as far
-    // Half a voxel, and what the noise has more than that of a camera at a metre.
-    config.tolerance = 0.5 * hierarchy_.node(node.id).map().resolution() +
-                       std::max(0.0, config_.noise.sigma(range) - 0.0015);
+        (segment.world_points->front().cast<double>() - origin_).norm();  // all points are about as far
+    const auto config = registrationAt(config_, hierarchy_.node(node.id).map().resolution(), range);
     return registerPoints(node.world_voxels, *segment.world_points, config, sight_);
   }
 
@@ -148,22 +128,28 @@ class Finder {
   }
 
   const MapHierarchy& hierarchy_;
-  const Measurement& z_;
+  Eigen::Vector3d origin_;
   const ReidentificationConfig& config_;
-  RangeView view_;
-  std::function<Sight(const Eigen::Vector3f&)> sight_;
+  std::function<Sight(const Eigen::Vector3f&)> sight_;  ///< none: the scan shows its own points only
 };
 
 }  // namespace
 
-MovedObjects findMovedObjects(const MapHierarchy& hierarchy, const Measurement& z,
-                              std::span<const SegmentInQuestion> segments,
+RegistrationConfig registrationAt(const ReidentificationConfig& config, double resolution, double range) {
+  RegistrationConfig registration = config.registration;
+  // Half a voxel, and what the noise has more than that of a camera at a metre.
+  registration.tolerance = 0.5 * resolution + std::max(0.0, config.noise.sigma(range) - 0.0015);
+  return registration;
+}
+
+MovedObjects findMovedObjects(const MapHierarchy& hierarchy, const Eigen::Vector3d& origin,
+                              const ScanSight& sight, std::span<const SegmentInQuestion> segments,
                               const std::map<NodeId, Evidence>& support,
                               const ReidentificationConfig& config) {
   if (!config.enabled || segments.empty()) return {};
   const auto doubtful = doubtfulNodes(hierarchy, segments, support, config.most_present);
   if (doubtful.empty()) return {};
-  return Finder(hierarchy, z, config).find(segments, doubtful);
+  return Finder(hierarchy, origin, sight, config).find(segments, doubtful);
 }
 
 }  // namespace hoctomap

@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "ScanSight.h"
 #include "hoctomap/existence/InverseExistenceModel.h"
 #include "hoctomap/hierarchy/MapHierarchy.h"
 #include "hoctomap/mapping/Reidentification.h"
@@ -33,10 +34,16 @@ struct MovedObjects {
       ambiguous;  ///< one sentence for each segment that could be a node and was not taken
 };
 
+/// Parameters of a registration for a map of this resolution (m), seen at this range (m).
+[[nodiscard]] RegistrationConfig registrationAt(const ReidentificationConfig& config, double resolution,
+                                                double range);
+
 /// Finds the nodes that this scan shows elsewhere (III-D): a node that loses its support is registered to
 /// each segment of its label that is new, or that lies in the node's own box. What fits two is nobody's.
 /// @param support  evidence by node, from the whole scan, before anything of it was integrated
-[[nodiscard]] MovedObjects findMovedObjects(const MapHierarchy& hierarchy, const Measurement& z,
+/// @param origin   of the scan, in the world
+[[nodiscard]] MovedObjects findMovedObjects(const MapHierarchy& hierarchy, const Eigen::Vector3d& origin,
+                                            const ScanSight& sight,
                                             std::span<const SegmentInQuestion> segments,
                                             const std::map<NodeId, Evidence>& support,
                                             const ReidentificationConfig& config);

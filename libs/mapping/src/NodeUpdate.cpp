@@ -2,6 +2,9 @@
 #include "NodeUpdate.h"
 
 #include <cstddef>
+#include <string>
+
+#include "hoctomap/octree/UpdateMemory.h"
 
 namespace hoctomap {
 
@@ -47,6 +50,16 @@ Eigen::AlignedBox3d grownBox(const NodeMap& map, const PointCloud& own, const Ei
   return box;
 }
 
+/// Refuses the update before it fills the memory, if the label has a limit.
+void requireMemory(const NodeUpdate& update, const Beams& beams) {
+  if (update.profile->max_memory < 0.0) return;
+  constexpr double kMegabyte = 1e6;
+  requireUpdateMemory(update.node->map().tree(), beams,
+                      static_cast<std::size_t>(update.profile->max_memory * kMegabyte),
+                      "node " + std::to_string(update.node->id().value) + ", [label." +
+                          update.node->label().name + "] max_memory");
+}
+
 }  // namespace
 
 ScanUpdateReport updateNodeMap(const NodeUpdate& update, const Measurement& z, const ScanUpdate& engine) {
@@ -60,6 +73,7 @@ ScanUpdateReport updateNodeMap(const NodeUpdate& update, const Measurement& z, c
     beams.bounds = grownBox(update.node->map(), points.own, beams.origin, update.max_range);
     if (beams.bounds->isEmpty()) return {};  // nothing mapped yet, nothing to map
   }
+  requireMemory(update, beams);
   const ScanUpdateReport report = update.node->map().update(engine, beams);
   update.node->last_scan = z.scan;
   update.node->version = z.scan;

@@ -65,4 +65,11 @@ std::optional<SurfacePoints::Neighbour> SurfacePoints::nearest(const Eigen::Vect
   return Neighbour{&points_[index], &normals_[index], squared_distance};
 }
 
+PointCloud worldSurface(const MapHierarchy& hierarchy, NodeId id) {
+  const Eigen::Isometry3f world_T_node = toIsometry(hierarchy.world_T_node(id)).cast<float>();
+  PointCloud surface;
+  for (const auto& voxel : hierarchy.node(id).map().occupiedVoxels()) surface.push_back(world_T_node * voxel);
+  return surface;
+}
+
 }  // namespace hoctomap

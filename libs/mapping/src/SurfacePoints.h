@@ -8,6 +8,8 @@
 #include <span>
 #include <vector>
 
+#include "hoctomap/hierarchy/MapHierarchy.h"
+
 namespace hoctomap {
 
 /// Points of a surface, thinned, with their normals and a search tree.
@@ -52,5 +54,8 @@ class SurfacePoints {
   float highest_ = 0.0F;
   std::optional<Tree> tree_;
 };
+
+/// Centres of a node's occupied voxels in the world, m.
+[[nodiscard]] PointCloud worldSurface(const MapHierarchy& hierarchy, NodeId id);
 
 }  // namespace hoctomap

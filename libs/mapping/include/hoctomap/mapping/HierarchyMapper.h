@@ -36,6 +36,9 @@ struct MappingConfig {
   ReidentificationConfig reidentification;
 };
 
+struct MovedObjects;
+class ScanSight;
+
 /// Builds a hierarchy from measurements: the map update of Section III-C.
 class HierarchyMapper {
  public:
@@ -68,18 +71,28 @@ class HierarchyMapper {
 
   std::vector<LabelledPart> segmentAndLabel(const Measurement& z) const;
   NodeEvidence gatherEvidence(const Measurement& z) const;
+  std::vector<std::optional<NodeId>> associateByBox(const std::vector<LabelledPart*>& parts,
+                                                    const NodeEvidence& evidence) const;
   std::vector<NodeId> associate(const Measurement& z, const std::vector<LabelledPart*>& parts,
-                                NodeEvidence& evidence, UpdateReport& report);
-  void followMovedObjects(const Measurement& z, const std::vector<LabelledPart*>& parts,
-                          std::vector<std::optional<NodeId>>& found, NodeEvidence& evidence,
-                          UpdateReport& report);
+                                const NodeEvidence& evidence, UpdateReport& report);
   NodeId createNode(const Measurement& z, const LabelledPart& part, UpdateReport& report);
   void updateMaps(const Measurement& z, const std::vector<LabelledPart*>& parts,
                   const std::vector<NodeId>& nodes, UpdateReport& report);
   void adoptRelated(const std::vector<NodeId>& created);
+  // HierarchyMapperChanges.cpp
+  void followMovedObjects(const Measurement& z, std::vector<LabelledPart>& parts, NodeEvidence& evidence,
+                          UpdateReport& report);
+  void findReplaced(const Measurement& z, const std::vector<LabelledPart*>& clusters,
+                    NodeEvidence& evidence) const;
+  MovedObjects findMoved(const Measurement& z, const ScanSight& sight,
+                         const std::vector<LabelledPart*>& clusters, const NodeEvidence& evidence) const;
+  void moveInWorld(NodeId id, const Eigen::Isometry3d& motion);
+  void matchLate(const Measurement& z, NodeEvidence& evidence, UpdateReport& report);
   void mergePieces(const Measurement& z, const std::vector<LabelledPart>& parts, const NodeEvidence& evidence,
                    UpdateReport& report);
+  void mergeInto(NodeId whole, NodeId piece, std::uint64_t scan, UpdateReport& report);
   void applyExistence(const Measurement& z, const NodeEvidence& evidence, UpdateReport& report);
+  [[nodiscard]] NodeEvent eventOf(NodeEventKind kind, NodeId id, std::string detail) const;
   [[nodiscard]] const LabelProfile& profile(const Label& label) const;
 
   MappingConfig config_;

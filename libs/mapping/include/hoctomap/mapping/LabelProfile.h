@@ -17,6 +17,7 @@ enum class Carve { own, scan };         ///< whose beams clear a node's free spa
 struct LabelProfile {
   double resolution = 0.05;  ///< m
   double max_range = -1.0;   ///< m; negative: that of the sensor
+  double max_memory = -1.0;  ///< MB of a node's octree with the update under way; negative: no limit
   OccupancyModel occupancy;
   FrameChoice frame = FrameChoice::pca;
   Carve carve = Carve::own;

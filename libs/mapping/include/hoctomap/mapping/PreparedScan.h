@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <optional>
 #include <vector>
 
 #include "hoctomap/geometry/Obb.h"
@@ -17,7 +18,8 @@ struct LabelledPart {
   PointCloud world_points;
   Label label;
   Obb box;
-  NodeId node;  ///< that took it
+  std::optional<NodeId> moved_node;  ///< known to be here now: it takes the segment wherever its box is
+  NodeId node;                       ///< that took it
 };
 
 /// A scan after the first step of its integration, which does not depend on the map: S(z) and L(z).
