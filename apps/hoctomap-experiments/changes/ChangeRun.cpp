@@ -47,6 +47,7 @@ class Run {
     z.stamp = scan.stamp;
     z.sensor = scan.sensor;
     const UpdateReport report = mapper_.integrate(z);
+    for (const std::string& warning : report.warnings) warnings_ += "; " + warning;
     for (const NodeEvent& event : report.events) note(event, scan, z);
     for (const ExistenceEntry& entry : report.existence) {
       const auto known = identities_.find(entry.node);
@@ -122,6 +123,7 @@ class Run {
     before_ = now_ ? *now_ : before_;
     appeared_ = vanished_ = 0;
     moved_.clear();
+    warnings_.clear();
     ++state_;
   }
 
@@ -142,7 +144,8 @@ class Run {
     }
     if (expected == reported) return;
     result_.mistakes.push_back(script_.name + " state " + std::to_string(state_) + ": " + what + " " +
-                               std::to_string(expected) + ", reported " + std::to_string(reported));
+                               std::to_string(expected) + ", reported " + std::to_string(reported) +
+                               warnings_);
   }
 
   /// The reported motion that fits the true motion of a solid best.
@@ -184,6 +187,7 @@ class Run {
   std::size_t appeared_ = 0;
   std::size_t vanished_ = 0;
   std::vector<NodeEvent> moved_;
+  std::string warnings_;
 };
 
 }  // namespace

@@ -25,7 +25,7 @@ struct ChangeCounts {
 struct MotionError {
   std::string solid;
   double shift = 0.0;  ///< m, of the solid's centroid
-  double turn = 0.0;   ///< rad; 0 for round solids; boxes may be turned by a half
+  double turn = 0.0;   ///< rad; of boxes, which may be turned by a half; 0 for others
 };
 
 /// A probability of existence of the ledger, and whether the object was there.

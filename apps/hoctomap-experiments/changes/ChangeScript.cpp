@@ -20,9 +20,9 @@ constexpr std::uint64_t kScansPerState = 3;
 
 /// One of the shapes that stand on tables.
 struct Thing {
+  std::string kind;
   Shape shape;
   double radius = 0.0;  ///< m, of the circle around its base
-  bool round = false;
 };
 
 /// A place on the table: metres from its middle, radians.
@@ -107,11 +107,11 @@ class ScriptMaker {
       case 0:
       case 1: {
         const Eigen::Vector3d size(uniform(0.06, 0.11), uniform(0.12, 0.17), uniform(0.06, 0.18));
-        return {BoxShape{size}, 0.5 * size.head<2>().norm(), false};
+        return {"box", BoxShape{size}, 0.5 * size.head<2>().norm()};
       }
       case 2: {
         const double radius = uniform(0.03, 0.05);
-        return {CylinderShape{radius, uniform(0.09, 0.2)}, radius, true};
+        return {"tin", CylinderShape{radius, uniform(0.09, 0.2)}, radius};
       }
       default: {
         TurnedShape mug;
@@ -120,7 +120,7 @@ class ScriptMaker {
         mug.profile = {{0.9 * radius, 0.0}, {radius, height}};
         mug.wall = 0.004;
         mug.handle = Handle{0.02, height - 0.02, 0.03, 0.006};
-        return {mug, radius + 0.04, false};
+        return {"mug", mug, radius + 0.04};
       }
     }
   }
@@ -145,12 +145,12 @@ class ScriptMaker {
 
   std::string put(const Thing& thing, const Place& place, bool present = true) {
     Solid solid;
-    solid.name = "object" + std::to_string(++objects_);
+    solid.name = thing.kind + std::to_string(++objects_);
     solid.surface = std::make_shared<const TriangleMesh>(tessellate(thing.shape));
     solid.support = table_;
     solid.support_T_solid = Pose(place.at.x(), place.at.y(), 0.0, place.yaw, 0.0, 0.0);
     solid.present = present;
-    if (thing.round) script_.round.push_back(solid.name);
+    if (thing.kind != "box") script_.round.push_back(solid.name);
     const std::string name = solid.name;
     script_.simulation.scene.add(std::move(solid));
     return name;
@@ -230,8 +230,8 @@ class ScriptMaker {
   }
 
   void behind() {
-    const Thing low{BoxShape{{0.10, 0.18, 0.09}}, 0.12, false};
-    const Thing tall{BoxShape{{0.05, 0.08, 0.24}}, 0.05, false};
+    const Thing low{"box", BoxShape{{0.10, 0.18, 0.09}}, 0.12};
+    const Thing tall{"box", BoxShape{{0.05, 0.08, 0.24}}, 0.05};
     const Place back{{uniform(-0.2, -0.1), uniform(-0.2, 0.2)}, uniform(-0.2, 0.2)};
     taken_.emplace_back(back.at, low.radius);
     const Place front{back.at + Eigen::Vector2d(0.2, uniform(-0.03, 0.03)), uniform(-0.3, 0.3)};
@@ -267,9 +267,9 @@ class ScriptMaker {
 
   void replace() {
     putBystanders(2);
-    const Thing low{BoxShape{{0.14, 0.10, 0.06}}, 0.09, false};
+    const Thing low{"box", BoxShape{{0.14, 0.10, 0.06}}, 0.09};
     const double radius = uniform(0.04, 0.05);
-    const Thing tall{CylinderShape{radius, uniform(0.16, 0.22)}, radius, true};
+    const Thing tall{"tin", CylinderShape{radius, uniform(0.16, 0.22)}, radius};
     const bool low_first = uniform(0.0, 1.0) < 0.5;
     const Place place = freePlace(0.09);
     const std::string old = put(low_first ? low : tall, place);

@@ -39,7 +39,7 @@ struct ChangeScript {
   Simulation simulation;
   std::uint64_t scans_per_state = 3;
   std::vector<ExpectedChanges> states;  ///< [k]: from state k to k + 1
-  std::vector<std::string> round;       ///< solids whose turn about the vertical cannot be seen
+  std::vector<std::string> round;       ///< solids whose turn cannot be seen, or only by a handle
 };
 
 /// A random script of a kind. Same kind and seed, same script.

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <functional>
 
+#include "BeamTraces.h"
 #include "SurfacePoints.h"
 
 namespace hoctomap {
@@ -99,7 +100,10 @@ class Finder {
     const double range =
         (segment.world_points->front().cast<double>() - origin_).norm();  // all points are about as far
     const auto config = registrationAt(config_, hierarchy_.node(node.id).map().resolution(), range);
-    return registerPoints(node.world_voxels, *segment.world_points, config, sight_);
+    const BeamTraces own(hierarchy_, node.id);
+    const BeamTraces root(hierarchy_, kRootId);
+    const auto was_shown = [&](const Eigen::Vector3f& p) { return own.isKnown(p) || root.isFree(p); };
+    return registerPoints(node.world_voxels, *segment.world_points, config, sight_, was_shown);
   }
 
   [[nodiscard]] bool hasMoved(const Registration& r, const DoubtfulNode& node,

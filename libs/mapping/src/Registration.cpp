@@ -70,9 +70,11 @@ Eigen::Isometry3f bestStep(const std::vector<Pair>& pairs, const Eigen::Vector3f
 class Registrar {
  public:
   Registrar(std::span<const Eigen::Vector3f> model, std::span<const Eigen::Vector3f> seen,
-            const RegistrationConfig& config, const std::function<Sight(const Eigen::Vector3f&)>& sight)
+            const RegistrationConfig& config, const std::function<Sight(const Eigen::Vector3f&)>& sight,
+            const std::function<bool(const Eigen::Vector3f&)>& was_shown)
       : config_(config),
         sight_(sight),
+        was_shown_(was_shown),
         near_(static_cast<float>(config.near + config.tolerance)),
         model_(model, static_cast<float>(config.spacing)),
         seen_(seen, static_cast<float>(config.spacing)) {}
@@ -92,7 +94,7 @@ class Registrar {
     // A round thing fits at any turn: the one it had is kept.
     for (const Registration& c : candidates) {
       if (c.verdict == best->verdict && c.score >= best->score - config_.rival_score &&
-          c.rms <= 1.15 * best->rms && turn(c.motion) < turn(best->motion) - kOtherTurn) {
+          c.rms <= 1.05 * best->rms && turn(c.motion) < turn(best->motion) - kOtherTurn) {
         best = &c;
       }
     }
@@ -103,10 +105,12 @@ class Registrar {
   }
 
  private:
-  static bool fitsWorse(const Registration& a, const Registration& b) {
-    constexpr double kOfRms = 20.0;  // per metre: breaks ties of overlaps that are all but complete
-    return a.score - kOfRms * a.rms < b.score - kOfRms * b.rms;
+  static double quality(const Registration& r) {
+    constexpr double kOfRms = 20.0;     // per metre: breaks ties of overlaps that are all but complete
+    constexpr double kExplained = 0.5;  // lest a motion win by taking for new sides what it does not fit
+    return r.score + kExplained * r.explained - kOfRms * r.rms;
   }
+  static bool fitsWorse(const Registration& a, const Registration& b) { return quality(a) < quality(b); }
 
   static double turn(const Eigen::Isometry3d& motion) { return Eigen::AngleAxisd(motion.rotation()).angle(); }
 
@@ -198,9 +202,14 @@ class Registrar {
 
     const Eigen::Isometry3f back = motion.inverse();
     std::size_t seen_near = 0;
+    std::size_t new_sides = 0;
     for (const auto& q : seen_.points()) {
-      const auto p = model_.nearest(back * q, near_);
-      if (!p) continue;
+      const Eigen::Vector3f before = back * q;
+      const auto p = model_.nearest(before, near_);
+      if (!p) {
+        if (was_shown_ && !was_shown_(before)) ++new_sides;
+        continue;
+      }
       ++seen_near;
       squares += static_cast<double>(p->squared_distance);
       ++pairs;
@@ -224,11 +233,12 @@ class Registrar {
       if (sight == Sight::seen_through) ++model_through;
     }
     const std::size_t visible = model_near + model_missed;
-    r.overlap_seen = share(seen_near, seen_.points().size());
+    r.overlap_seen = share(seen_near, seen_.points().size() - new_sides);
     r.overlap_model = share(model_near, visible);
     r.seen_through = share(model_through, visible);
     r.rms = pairs == 0 ? 0.0 : std::sqrt(squares / static_cast<double>(pairs));
     r.score = std::min(r.overlap_model, r.overlap_seen);
+    r.explained = share(seen_near, seen_.points().size());
     r.verdict = verdict(r, share(visible, model_.points().size()),
                         std::abs(static_cast<double>(highest - seen_.highest())));
     return r;
@@ -237,7 +247,8 @@ class Registrar {
   [[nodiscard]] Match verdict(const Registration& r, double visible, double height_error) const {
     const double least = std::min(r.overlap_model, r.overlap_seen);
     if (r.overlap_seen < config_.different_overlap || least < config_.least_overlap) return Match::different;
-    const bool same = least >= config_.same_overlap && r.rms <= config_.max_rms + config_.tolerance &&
+    const bool same = least >= config_.same_overlap && r.explained >= config_.least_explained &&
+                      r.rms <= config_.max_rms + config_.tolerance &&
                       height_error <= config_.max_height_error + config_.tolerance &&
                       visible >= config_.min_visible && r.seen_through <= config_.max_seen_through;
     return same ? Match::same : Match::ambiguous;
@@ -249,6 +260,7 @@ class Registrar {
 
   const RegistrationConfig& config_;
   const std::function<Sight(const Eigen::Vector3f&)>& sight_;
+  const std::function<bool(const Eigen::Vector3f&)>& was_shown_;
   float near_;
   SurfacePoints model_;
   SurfacePoints seen_;
@@ -258,7 +270,8 @@ class Registrar {
 
 Registration registerPoints(std::span<const Eigen::Vector3f> model_world,
                             std::span<const Eigen::Vector3f> seen_world, const RegistrationConfig& config,
-                            const std::function<Sight(const Eigen::Vector3f&)>& sight) {
+                            const std::function<Sight(const Eigen::Vector3f&)>& sight,
+                            const std::function<bool(const Eigen::Vector3f&)>& was_shown) {
   // About the object itself: single precision near the world's origin is not that of far away.
   if (model_world.empty() || seen_world.empty()) return {};
   const Eigen::Vector3f centre = model_world.front();
@@ -268,7 +281,9 @@ Registration registerPoints(std::span<const Eigen::Vector3f> model_world,
   for (auto& p : seen) p -= centre;
   std::function<Sight(const Eigen::Vector3f&)> local;
   if (sight) local = [&](const Eigen::Vector3f& p) { return sight(p + centre); };
-  Registration r = Registrar(model, seen, config, local).best();
+  std::function<bool(const Eigen::Vector3f&)> local_shown;
+  if (was_shown) local_shown = [&](const Eigen::Vector3f& p) { return was_shown(p + centre); };
+  Registration r = Registrar(model, seen, config, local, local_shown).best();
   const Eigen::Translation3d to_world(centre.cast<double>());
   r.motion = to_world * r.motion * to_world.inverse();
   return r;

@@ -26,9 +26,10 @@ struct RegistrationConfig {
   double same_overlap = 0.85;       ///< both ways
   double different_overlap = 0.6;   ///< of `seen` in `model`; below it they differ
   double least_overlap = 0.45;      ///< of either in the other; below it they differ
+  double least_explained = 0.6;     ///< share of all seen points near the model, new sides or not
   double max_seen_through = 0.12;   ///< share of the model that the scan may contradict
   double min_visible = 0.25;        ///< share of the model that the scan must show
-  double rival_score = 0.1;         ///< a pose within it is as good: the smaller turn is kept
+  double rival_score = 0.03;        ///< a pose within it is as good: the smaller turn is kept
   double at_rest = 0.9;             ///< a model that fits this well where it is has not moved
   int yaw_starts = 18;              ///< turns about the vertical that are tried
 };
@@ -38,7 +39,8 @@ struct Registration {
   /// World motion that takes `model` onto `seen`: p_after = motion * p_before.
   Eigen::Isometry3d motion = Eigen::Isometry3d::Identity();
   double overlap_model = 0.0;  ///< share of the model's visible points near a seen point
-  double overlap_seen = 0.0;   ///< share of the seen points near a point of the model
+  double overlap_seen = 0.0;   ///< share of the seen points that the model can show near one of its points
+  double explained = 0.0;      ///< share of all seen points near a point of the model
   double rms = 0.0;            ///< m, of the overlapping points
   double seen_through = 0.0;   ///< share of the model's points that the scan contradicts
   double rest_score = 0.0;     ///< the score without any motion
@@ -52,8 +54,11 @@ struct Registration {
 /// @param model_world  surface points of the object where it was, m
 /// @param seen_world   points that the scan shows, m
 /// @param sight        what the scan says of a place (world); null: everything is visible
+/// @param was_shown    whether earlier scans would have shown a surface at this place, of a model where it
+///                     was (world): a turned object shows sides that nobody has seen before; null: always
 [[nodiscard]] Registration registerPoints(
     std::span<const Eigen::Vector3f> model_world, std::span<const Eigen::Vector3f> seen_world,
-    const RegistrationConfig& config, const std::function<Sight(const Eigen::Vector3f&)>& sight = nullptr);
+    const RegistrationConfig& config, const std::function<Sight(const Eigen::Vector3f&)>& sight = nullptr,
+    const std::function<bool(const Eigen::Vector3f&)>& was_shown = nullptr);
 
 }  // namespace hoctomap
