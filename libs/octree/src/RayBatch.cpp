@@ -56,26 +56,45 @@ HOCTOMAP_INLINE Doubles binadeOf(const Doubles& x) {
   return reinterpret_cast<Doubles>(reinterpret_cast<Codes>(x) & 0x7FF0'0000'0000'0000LL);
 }
 
-/// As `addRepeatedly`, for four rays and three axes at a time: the axes' chains of operations overlap.
-HOCTOMAP_INLINE void addRepeatedlyLanes(Doubles t[3], const Doubles delta[3], Doubles count[3]) {
-  const Doubles per_step[3] = {1.0 / delta[0], 1.0 / delta[1], 1.0 / delta[2]};
-  while (anyOf((count[0] > 0.0) | (count[1] > 0.0) | (count[2] > 0.0))) {
-#pragma GCC unroll 3
-    for (std::size_t i = 0; i < 3; ++i) {
-      const Doubles a = t[i] + delta[i];
-      const Doubles b = a + delta[i];
-      const Doubles c = b + delta[i];
-      const Doubles limit = 2.0 * binadeOf(b);
-      const Codes steady = (a > 0.0) & (c < limit) & (binadeOf(a) == binadeOf(b)) & (count[i] > 3.0);
-      // Where the sum is not steady the product may be anything: it must not reach the conversion to int.
-      const Doubles room = either(steady, (limit - b) * per_step[i] * (1.0 - 1e-9) - 1.0, Doubles{});
-      const Doubles more = floorOf(lesser(count[i] - 2.0, room));
-      const Codes jump = steady & (more >= 1.0);
-      const Codes single = ~jump & (count[i] > 0.0);
-      t[i] = either(jump, b + more * (c - b), either(single, a, t[i]));
-      count[i] -= either(jump, more + 2.0, either(single, Doubles{} + 1.0, Doubles{}));
-    }
+/// To the next whole number, for numbers below 2^51 in magnitude.
+HOCTOMAP_INLINE Doubles nearestOf(const Doubles& x) {
+  constexpr double kShift =
+      6755399441055744.0;  // 1.5 * 2^52: numbers of this size have no places after the point
+  return (x + kShift) - kShift;
+}
+
+/// A part of `addRepeatedly`, for four rays: to the end of the binade, or some steps where one begins.
+HOCTOMAP_INLINE void addSome(Doubles& t, const Doubles& delta, const Doubles& per_step, Doubles& count) {
+  const Doubles a = t + delta;
+  const Doubles b = a + delta;
+  const Doubles c = b + delta;
+  const Doubles limit = 2.0 * binadeOf(b);
+  const Codes steady = (a > 0.0) & (c < limit) & (binadeOf(a) == binadeOf(b)) & (count > 3.0);
+  // At least half a step below the limit: far more than the error of the product.
+  const Doubles more = nearestOf(lesser(count - 2.0, (limit - b) * per_step - 1.0));
+  const Codes two = count > 1.0;
+  t = either(two, either(steady, b + more * (c - b), b), t);
+  count -= either(two, either(steady, more, Doubles{}) + 2.0, Doubles{});
+  for (int i = 0; i < 2; ++i) {  // into the next binade
+    const Codes one = count > 0.0;
+    t = either(one, t + delta, t);
+    count -= either(one, Doubles{} + 1.0, Doubles{});
   }
+}
+
+/// As `addRepeatedly`, for four rays and three axes at a time: the axes' chains of operations overlap.
+HOCTOMAP_INLINE void addRepeatedlyLanes(Doubles t[3], const Doubles delta[3], const Doubles count[3]) {
+  Doubles t0 = t[0], t1 = t[1], t2 = t[2];
+  Doubles n0 = count[0], n1 = count[1], n2 = count[2];
+  const Doubles per0 = 1.0 / delta[0], per1 = 1.0 / delta[1], per2 = 1.0 / delta[2];
+  while (anyOf((n0 > 0.0) | (n1 > 0.0) | (n2 > 0.0))) {
+    addSome(t0, delta[0], per0, n0);
+    addSome(t1, delta[1], per1, n1);
+    addSome(t2, delta[2], per2, n2);
+  }
+  t[0] = t0;
+  t[1] = t1;
+  t[2] = t2;
 }
 
 /// Four rays, axis by axis: see `Ray`, whose arithmetic this repeats to the last bit.
@@ -181,11 +200,41 @@ HOCTOMAP_INLINE Codes nearBox(const RayFan& fan, const Floats end[3]) {
   return enters <= leaves;
 }
 
-HOCTOMAP_INLINE void prepare(const RayFan& fan, const std::array<Eigen::Vector3f, kLanes>& ends,
-                             std::size_t count, RayBatch& batch) {
+/// Leaves out the first part of rays from inside the box. A ray for which it is not certain where that ends
+/// stays whole.
+HOCTOMAP_INLINE void leaveOut(const Ends& ends, const Rays& rays, Doubles taken[3], Doubles& cells) {
+  Doubles time{};
+  Codes skips{};
+  Doubles skip[3];
+  for (std::size_t i = 0; i < 3; ++i) {
+    for (std::size_t lane = 0; lane < kLanes; ++lane) {
+      skip[i][lane] = ends.skip_axis[lane] == i ? ends.skip_steps[lane] : 0.0;
+    }
+    const Codes here = skip[i] > 0.0;
+    time = either(here, rays.next[i] + (skip[i] - 1.0) * rays.delta[i], time);
+    skips |= here;
+    cells = either(here & (skip[i] > rays.steps[i]), Doubles{}, cells);
+  }
+  Doubles first{};
+  Codes doubt{};
+  for (std::size_t i = 0; i < 3; ++i) {
+    const Codes here = skip[i] > 0.0;
+    Codes close{};
+    const Doubles others = crossingsBefore(time, rays.next[i], rays.delta[i], close);
+    doubt |= close & ~here;
+    taken[i] = either(here, skip[i], others);
+    first += taken[i];
+  }
+  skips &= ~doubt;
+  for (std::size_t i = 0; i < 3; ++i) taken[i] = either(skips, taken[i], Doubles{});
+  cells -= either(skips, first, Doubles{});
+}
+
+HOCTOMAP_INLINE void prepare(const RayFan& fan, const Ends& ends, RayBatch& batch) {
+  const std::size_t count = ends.count;
   Floats end[3];
   for (std::size_t lane = 0; lane < kLanes; ++lane) {
-    const Eigen::Vector3f& p = ends[lane < count ? lane : 0];
+    const Eigen::Vector3f& p = ends.points[lane < count ? lane : 0];
     end[0][lane] = p[0];
     end[1][lane] = p[1];
     end[2][lane] = p[2];
@@ -253,6 +302,9 @@ HOCTOMAP_INLINE void prepare(const RayFan& fan, const std::array<Eigen::Vector3f
     cut(fan, rays, live, doubt, taken, cells);
     special |= live & doubt;
     live &= ~doubt;
+  }
+  if (ends.skips) leaveOut(ends, rays, taken, cells);
+  if (fan.bounded || ends.skips) {
     live &= cells > 0.0;
     Doubles crossings[3] = {either(live, taken[0], Doubles{}), either(live, taken[1], Doubles{}),
                             either(live, taken[2], Doubles{})};
@@ -279,14 +331,12 @@ HOCTOMAP_INLINE void prepare(const RayFan& fan, const std::array<Eigen::Vector3f
   }
 }
 
-void prepareBaseline(const RayFan& fan, const std::array<Eigen::Vector3f, kLanes>& ends, std::size_t count,
-                     RayBatch& batch) {
-  prepare(fan, ends, count, batch);
+void prepareBaseline(const RayFan& fan, const Ends& ends, RayBatch& batch) {
+  prepare(fan, ends, batch);
 }
 
-HOCTOMAP_TARGET_AVX2 void prepareAvx2(const RayFan& fan, const std::array<Eigen::Vector3f, kLanes>& ends,
-                                      std::size_t count, RayBatch& batch) {
-  prepare(fan, ends, count, batch);
+HOCTOMAP_TARGET_AVX2 void prepareAvx2(const RayFan& fan, const Ends& ends, RayBatch& batch) {
+  prepare(fan, ends, batch);
 }
 
 }  // namespace
