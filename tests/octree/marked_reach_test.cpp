@@ -150,19 +150,19 @@ std::vector<Vector3f> fan(Random& random, const Vector3f& origin, double resolut
   const double sign = random.pick(2) == 0 ? 1.0 : -1.0;
   const double a0 = random.uniform(-1.1, 1.0);
   const double b0 = random.uniform(-1.1, 1.0);
-  constexpr int kSide = 66;
+  const int side = random.pick(4) == 0 ? 94 : 66;  // the larger one is shared by two threads
   constexpr double kWidth = 0.14;
   std::vector<Vector3f> points;
-  for (int i = 0; i < kSide; ++i) {
-    for (int j = 0; j < kSide; ++j) {
+  for (int i = 0; i < side; ++i) {
+    for (int j = 0; j < side; ++j) {
       const double depth = (random.pick(50) == 0 ? random.uniform(0.0, 200.0)
                             : i / 11 % 2 == 0    ? 190.0
                                                  : 150.0) *
                            resolution;
       Vector3f p = origin;
       p[axes[0]] += static_cast<float>(sign * depth);
-      p[axes[1]] += static_cast<float>(depth * (a0 + kWidth * i / kSide));
-      p[axes[2]] += static_cast<float>(depth * (b0 + kWidth * j / kSide));
+      p[axes[1]] += static_cast<float>(depth * (a0 + kWidth * i / side));
+      p[axes[2]] += static_cast<float>(depth * (b0 + kWidth * j / side));
       points.push_back(p);
     }
   }
