@@ -54,8 +54,9 @@ long checkReach(std::uint64_t seed) {
   VoxelBits bits;
   bits.open(frame);
   const int holes = random.pick(3) == 0 ? 1 : 3000;
-  const auto isHole = [&](const Key& k) {
-    return (k[0] * 7919 + k[1] * 104729 + k[2] * 1299709) % holes == 7;
+  const auto isHole = [&](const Key& key) {
+    const Code scattered = Code{key[0]} * 7919 + Code{key[1]} * 104729 + Code{key[2]} * 1299709;
+    return scattered % holes == 7;
   };
   Key k;
   for (k[0] = box.min[0]; k[0] <= box.max[0]; ++k[0]) {
