@@ -15,4 +15,4 @@ if [ ! -x "$program" ]; then
   echo "engine_sweep.sh: $program is not there: build it first (cmake --build build/dev --target test_octree)" >&2
   exit 5
 fi
-HOCTOMAP_SWEEP=$factor "$program" --gtest_filter='BlockScanUpdate.*Scans*:BlockScanUpdate.*Saturated*:RayBatch.*'
+HOCTOMAP_SWEEP=$factor "$program" --gtest_filter='BlockScanUpdate.*Scans*:BlockScanUpdate.*Saturated*:RayBatch.*:MarkedReach.*'

@@ -81,7 +81,7 @@ int compareWithExactPath(std::uint64_t seed, bool bounded, bool best_instruction
     if (trial % 50 == 0) ends[0] = origin;
     if (trial % 90 == 0) ends[0][0] = 1e9F;
     RayBatch batch;
-    prepare(fan, ends, count, batch);
+    prepare(fan, {ends, count, {}, {}, false}, batch);
     for (std::size_t lane = 0; lane < kLanes; ++lane) {
       Key key;
       const bool is_ray = lane < count && grid.checkedKey(ends[lane], key) && key != caster.originKey();
@@ -127,7 +127,7 @@ TEST(RayBatch, FewRaysAreSpecial) {
       for (Eigen::Index i = 0; i < 3; ++i) end[i] = static_cast<float>(scene.uniform(0.4, 0.6));
     }
     RayBatch batch;
-    choosePrepareRays(true)(fan, ends, kLanes, batch);
+    choosePrepareRays(true)(fan, {ends, kLanes, {}, {}, false}, batch);
     special += static_cast<int>(std::count(batch.state.begin(), batch.state.end(), State::special));
   }
   EXPECT_LT(special, 100);

@@ -76,7 +76,7 @@ class ScratchPool {
 class ScanPass {
  public:
   ScanPass(octomap::OcTree& tree, const ScanBeams& scan, bool best_instructions, ScratchPool& pool)
-      : tree_(tree), scan_(scan), best_(best_instructions), pool_(pool) {}
+      : tree_(tree), scan_(scan), best_(best_instructions), pool_(pool), max_pages_(maxPages(scan)) {}
 
   void run() {
     if (!scan_.box().empty())
@@ -125,15 +125,37 @@ class ScanPass {
     for (auto& s : scratch) pool_.giveBack(std::move(s));
   }
 
-  /// True if the box does not fit a bitmap, or the bitmap would take too much memory.
-  bool isTooLarge(const KeyBox& box, Points hits, Points passing) const {
+  /// Pages that the box could take.
+  static double pagesIn(const KeyBox& box) {
     constexpr double kPageEdge = 32.0;
-    if (engine::BlockFrame(box).levels() > engine::BlockFrame::kMaxLevels) return true;
     double pages = 1.0;
     for (std::size_t i = 0; i < 3; ++i) pages *= (box.max[i] - box.min[i]) / kPageEdge + 1.0;
+    return pages;
+  }
+
+  /// Pages of a bitmap at a time. Beams that are far apart make as much of a tree as of a bitmap: then a
+  /// small share of the tree. (Many beams are not gone through part by part for that: it would cost time.)
+  static double maxPages(const ScanBeams& scan) {
+    constexpr std::size_t kFewBeams = 20000;
+    constexpr double kLeast = 768.0;  // 3 MB
+    constexpr double kShare = 0.03;
+    constexpr double kSamples = 1 << 14;
+    const auto& [hits, passing] = std::pair(scan.beams().hits, scan.beams().passing);
+    if (hits.size() + passing.size() > kFewBeams || scan.box().empty() ||
+        pagesIn(scan.box()) < 2.0 * kLeast) {
+      return engine::kMaxPagesAPart;
+    }
+    const double tree = engine::BeamDensity(scan, scan.box(), hits, passing, kSamples).treeBytes();
+    constexpr double kPageBytes = engine::kPageWords * sizeof(engine::BlockBits);
+    return std::clamp(kShare * tree / kPageBytes, kLeast, engine::kMaxPagesAPart);
+  }
+
+  /// True if the box does not fit a bitmap, or the bitmap would take too much memory.
+  bool isTooLarge(const KeyBox& box, Points hits, Points passing) const {
+    if (engine::BlockFrame(box).levels() > engine::BlockFrame::kMaxLevels) return true;
     constexpr double kSamples = 1 << 16;
-    return pages > engine::kMaxPagesAPart &&
-           engine::BeamDensity(scan_, box, hits, passing, kSamples).pages() > engine::kMaxPagesAPart;
+    return pagesIn(box) > max_pages_ &&
+           engine::BeamDensity(scan_, box, hits, passing, kSamples).pages() > max_pages_;
   }
 
   /// Shares of the beams marked at the same time, each with bitmaps of its own: few, and none too small.
@@ -157,6 +179,7 @@ class ScanPass {
   const ScanBeams& scan_;
   bool best_;
   ScratchPool& pool_;
+  double max_pages_;
 };
 
 class BlockScanUpdate : public ScanUpdate {

@@ -1,82 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "RayBatch.h"
 
-#include <cmath>
+#include "LaneMath.h"
 
 namespace hoctomap::engine {
 
 namespace {
-
-#define HOCTOMAP_INLINE [[gnu::always_inline]] inline
-
-HOCTOMAP_INLINE Doubles toDoubles(const Floats& v) {
-  return __builtin_convertvector(v, Doubles);
-}
-HOCTOMAP_INLINE Doubles either(const Codes& mask, const Doubles& a, const Doubles& b) {
-  return mask ? a : b;
-}
-HOCTOMAP_INLINE Doubles lesser(const Doubles& a, const Doubles& b) {
-  return a < b ? a : b;
-}
-HOCTOMAP_INLINE Doubles greater(const Doubles& a, const Doubles& b) {
-  return a > b ? a : b;
-}
-HOCTOMAP_INLINE Doubles magnitude(const Doubles& a) {
-  return reinterpret_cast<Doubles>(reinterpret_cast<Codes>(a) & 0x7FFF'FFFF'FFFF'FFFFLL);
-}
-HOCTOMAP_INLINE bool anyOf(const Codes& mask) {
-  return (mask[0] | mask[1] | mask[2] | mask[3]) != 0;
-}
-/// Rounded down, for numbers that fit an int.
-HOCTOMAP_INLINE Doubles floorOf(const Doubles& x) {
-  const Doubles truncated = __builtin_convertvector(__builtin_convertvector(x, Ints), Doubles);
-  return truncated > x ? truncated - 1.0 : truncated;
-}
-HOCTOMAP_INLINE Codes toCodes(const Doubles& x) {
-  return __builtin_convertvector(__builtin_convertvector(x, Ints), Codes);
-}
-HOCTOMAP_INLINE Doubles rootOf(const Doubles& x) {
-  Doubles root;
-  for (std::size_t lane = 0; lane < kLanes; ++lane) root[lane] = std::sqrt(x[lane]);
-  return root;
-}
-
-/// As `dilate`, four at a time.
-HOCTOMAP_INLINE Codes dilateLanes(Codes x) {
-  x = (x | x << 32) & static_cast<Code>(0xFFFF'0000'0000'FFFFULL);
-  x = (x | x << 16) & 0x00FF'0000'FF00'00FFLL;
-  x = (x | x << 8) & static_cast<Code>(0xF00F'00F0'0F00'F00FULL);
-  x = (x | x << 4) & 0x30C3'0C30'C30C'30C3LL;
-  x = (x | x << 2) & static_cast<Code>(0x9249'2492'4924'9249ULL);
-  return x;
-}
-
-/// The power of two at or below a positive number.
-HOCTOMAP_INLINE Doubles binadeOf(const Doubles& x) {
-  return reinterpret_cast<Doubles>(reinterpret_cast<Codes>(x) & 0x7FF0'0000'0000'0000LL);
-}
-
-/// As `addRepeatedly`, for four rays and three axes at a time: the axes' chains of operations overlap.
-HOCTOMAP_INLINE void addRepeatedlyLanes(Doubles t[3], const Doubles delta[3], Doubles count[3]) {
-  const Doubles per_step[3] = {1.0 / delta[0], 1.0 / delta[1], 1.0 / delta[2]};
-  while (anyOf((count[0] > 0.0) | (count[1] > 0.0) | (count[2] > 0.0))) {
-#pragma GCC unroll 3
-    for (std::size_t i = 0; i < 3; ++i) {
-      const Doubles a = t[i] + delta[i];
-      const Doubles b = a + delta[i];
-      const Doubles c = b + delta[i];
-      const Doubles limit = 2.0 * binadeOf(b);
-      const Codes steady = (a > 0.0) & (c < limit) & (binadeOf(a) == binadeOf(b)) & (count[i] > 3.0);
-      // Where the sum is not steady the product may be anything: it must not reach the conversion to int.
-      const Doubles room = either(steady, (limit - b) * per_step[i] * (1.0 - 1e-9) - 1.0, Doubles{});
-      const Doubles more = floorOf(lesser(count[i] - 2.0, room));
-      const Codes jump = steady & (more >= 1.0);
-      const Codes single = ~jump & (count[i] > 0.0);
-      t[i] = either(jump, b + more * (c - b), either(single, a, t[i]));
-      count[i] -= either(jump, more + 2.0, either(single, Doubles{} + 1.0, Doubles{}));
-    }
-  }
-}
 
 /// Four rays, axis by axis: see `Ray`, whose arithmetic this repeats to the last bit.
 struct Rays {
@@ -181,11 +110,41 @@ HOCTOMAP_INLINE Codes nearBox(const RayFan& fan, const Floats end[3]) {
   return enters <= leaves;
 }
 
-HOCTOMAP_INLINE void prepare(const RayFan& fan, const std::array<Eigen::Vector3f, kLanes>& ends,
-                             std::size_t count, RayBatch& batch) {
+/// Leaves out the first part of rays from inside the box. A ray for which it is not certain where that ends
+/// stays whole.
+HOCTOMAP_INLINE void leaveOut(const Ends& ends, const Rays& rays, Doubles taken[3], Doubles& cells) {
+  Doubles time{};
+  Codes skips{};
+  Doubles skip[3];
+  for (std::size_t i = 0; i < 3; ++i) {
+    for (std::size_t lane = 0; lane < kLanes; ++lane) {
+      skip[i][lane] = ends.skip_axis[lane] == i ? ends.skip_steps[lane] : 0.0;
+    }
+    const Codes here = skip[i] > 0.0;
+    time = either(here, rays.next[i] + (skip[i] - 1.0) * rays.delta[i], time);
+    skips |= here;
+    cells = either(here & (skip[i] > rays.steps[i]), Doubles{}, cells);
+  }
+  Doubles first{};
+  Codes doubt{};
+  for (std::size_t i = 0; i < 3; ++i) {
+    const Codes here = skip[i] > 0.0;
+    Codes close{};
+    const Doubles others = crossingsBefore(time, rays.next[i], rays.delta[i], close);
+    doubt |= close & ~here;
+    taken[i] = either(here, skip[i], others);
+    first += taken[i];
+  }
+  skips &= ~doubt;
+  for (std::size_t i = 0; i < 3; ++i) taken[i] = either(skips, taken[i], Doubles{});
+  cells -= either(skips, first, Doubles{});
+}
+
+HOCTOMAP_INLINE void prepare(const RayFan& fan, const Ends& ends, RayBatch& batch) {
+  const std::size_t count = ends.count;
   Floats end[3];
   for (std::size_t lane = 0; lane < kLanes; ++lane) {
-    const Eigen::Vector3f& p = ends[lane < count ? lane : 0];
+    const Eigen::Vector3f& p = ends.points[lane < count ? lane : 0];
     end[0][lane] = p[0];
     end[1][lane] = p[1];
     end[2][lane] = p[2];
@@ -253,6 +212,9 @@ HOCTOMAP_INLINE void prepare(const RayFan& fan, const std::array<Eigen::Vector3f
     cut(fan, rays, live, doubt, taken, cells);
     special |= live & doubt;
     live &= ~doubt;
+  }
+  if (ends.skips) leaveOut(ends, rays, taken, cells);
+  if (fan.bounded || ends.skips) {
     live &= cells > 0.0;
     Doubles crossings[3] = {either(live, taken[0], Doubles{}), either(live, taken[1], Doubles{}),
                             either(live, taken[2], Doubles{})};
@@ -279,14 +241,12 @@ HOCTOMAP_INLINE void prepare(const RayFan& fan, const std::array<Eigen::Vector3f
   }
 }
 
-void prepareBaseline(const RayFan& fan, const std::array<Eigen::Vector3f, kLanes>& ends, std::size_t count,
-                     RayBatch& batch) {
-  prepare(fan, ends, count, batch);
+void prepareBaseline(const RayFan& fan, const Ends& ends, RayBatch& batch) {
+  prepare(fan, ends, batch);
 }
 
-HOCTOMAP_TARGET_AVX2 void prepareAvx2(const RayFan& fan, const std::array<Eigen::Vector3f, kLanes>& ends,
-                                      std::size_t count, RayBatch& batch) {
-  prepare(fan, ends, count, batch);
+HOCTOMAP_TARGET_AVX2 void prepareAvx2(const RayFan& fan, const Ends& ends, RayBatch& batch) {
+  prepare(fan, ends, batch);
 }
 
 }  // namespace

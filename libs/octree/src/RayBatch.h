@@ -47,9 +47,19 @@ struct RayBatch {
 /// Sets lane 0 of `start` to a stretch found by the exact path.
 void placeRay(const RayFan& fan, const Ray& ray, const Stretch& stretch, Traversals& start);
 
-/// Prepares the rays to the first `count` (1 to 4) endpoints.
-using PrepareRays = void (*)(const RayFan&, const std::array<Eigen::Vector3f, kLanes>& ends,
-                             std::size_t count, RayBatch&);
+/// Four endpoints, and what needs no walk.
+struct Ends {
+  std::array<Eigen::Vector3f, kLanes> points;
+  std::size_t count = 0;
+  /// The cells that a ray visits before so many steps along an axis may be left out. Only for an origin
+  /// inside the box.
+  std::array<int, kLanes> skip_steps;
+  std::array<std::size_t, kLanes> skip_axis;
+  bool skips = false;  ///< whether any ray has such steps; else they are not set
+};
+
+/// Prepares the rays to the first `ends.count` (1 to 4) endpoints.
+using PrepareRays = void (*)(const RayFan&, const Ends& ends, RayBatch&);
 [[nodiscard]] PrepareRays choosePrepareRays(bool best_instructions);
 
 }  // namespace hoctomap::engine

@@ -2,119 +2,12 @@
 #include "ScanMarks.h"
 
 #include <algorithm>
-#include <limits>
+
+#include "BeamOrder.h"
 
 namespace hoctomap::engine {
 
 using Eigen::Vector3f;
-
-namespace {
-
-// A cell beyond an endpoint may come from rounding, never a second one.
-constexpr int kMargin = 2;
-
-/// The smallest box of coordinates around the origin and the ends of the beams.
-struct Extent {
-  explicit Extent(const Vector3f& origin) : low(origin), high(origin) {}
-  void add(const Vector3f& p) {
-    low = low.cwiseMin(p);
-    high = high.cwiseMax(p);
-  }
-
-  Vector3f low;
-  Vector3f high;
-};
-
-/// Keys that the beams of a scan can reach, wrapping aside.
-KeyBox reachOf(const ScanBeams& scan) {
-  const VoxelGrid& grid = scan.grid();
-  Extent extent(scan.origin());
-  const auto points = {scan.beams().hits, scan.beams().passing};
-  for (const auto list : points) {
-    for (const Vector3f& p : list) extent.add(p);
-  }
-  Key key;
-  if (!grid.checkedKey(extent.low, key) || !grid.checkedKey(extent.high, key)) {
-    // Leave out what no key can address: such ends are dropped, and without the origin there are no beams.
-    extent.low.setConstant(std::numeric_limits<float>::max());
-    extent.high = -extent.low;
-    if (grid.checkedKey(scan.origin(), key)) extent.add(scan.origin());
-    for (const auto list : points) {
-      for (const Vector3f& p : list) {
-        const Vector3f end = scan.isTooLong(p) ? scan.cut(p) : p;
-        if (grid.checkedKey(end, key)) extent.add(end);
-      }
-    }
-  }
-  KeyBox box;
-  if ((extent.low.array() > extent.high.array()).any()) {  // nothing at all
-    box.max = {-1, -1, -1};
-    return box;
-  }
-  for (std::size_t i = 0; i < 3; ++i) {
-    const auto axis = static_cast<Eigen::Index>(i);
-    box.min[i] = std::max(grid.clampedKey(extent.low[axis]) - kMargin, 0);
-    box.max[i] = std::min(grid.clampedKey(extent.high[axis]) + kMargin, kMaxKey);
-  }
-  return box;
-}
-
-/// True if a cell next to the box would be beyond the key range.
-bool touchesEnd(const KeyBox& box) {
-  bool touches = false;
-  for (std::size_t i = 0; i < 3; ++i) touches |= box.min[i] == 0 || box.max[i] == kMaxKey;
-  return touches;
-}
-
-}  // namespace
-
-ScanBeams::ScanBeams(const VoxelGrid& grid, const Beams& beams) : grid_(grid), beams_(beams) {
-  const KeyBox reach = reachOf(*this);
-  const KeyBox bounds = grid.keyBox(beams.bounds);
-  box_ = reach.intersection(bounds);
-  if (touchesEnd(reach) || !allAddressable()) findOddities(reach, bounds);
-}
-
-bool ScanBeams::allAddressable() const {
-  Key key;
-  return std::all_of(beams_.hits.begin(), beams_.hits.end(),
-                     [&](const Vector3f& p) { return grid_.checkedKey(p, key); });
-}
-
-void ScanBeams::findOddities(const KeyBox& reach, const KeyBox& bounds) {
-  const RayCaster caster(grid_, beams_.origin);
-  const auto findStrays = [&](const Vector3f& end, const Key& key) {
-    if (!caster.originValid() || key == caster.originKey()) return;
-    const Ray ray = caster.prepare(end, key);
-    if (isRegular(ray)) return;
-    walkAsOctomap(ray, [&](const Key& k) {
-      if (bounds.contains(k) && !reach.contains(k)) strays_.push_back(k);
-    });
-  };
-  Key key;
-  for (const Vector3f& p : beams_.hits) {
-    const bool too_long = isTooLong(p);
-    const Vector3f end = too_long ? cut(p) : p;
-    if (grid_.checkedKey(end, key)) {
-      findStrays(end, key);
-    } else if (!too_long) {
-      ++beyond_key_range_;
-    }
-  }
-  for (const Vector3f& p : beams_.passing) {
-    const Vector3f end = isTooLong(p) ? cut(p) : p;
-    if (grid_.checkedKey(end, key)) findStrays(end, key);
-  }
-  std::sort(strays_.begin(), strays_.end());
-  strays_.erase(std::unique(strays_.begin(), strays_.end()), strays_.end());
-}
-
-Vector3f ScanBeams::cut(const Vector3f& end) const {
-  Vector3f direction = end - beams_.origin;
-  const double length = norm(direction);
-  if (length > 0.0) direction /= static_cast<float>(length);
-  return beams_.origin + direction * static_cast<float>(beams_.max_range);
-}
 
 ScanMarks::ScanMarks(const ScanBeams& scan, const KeyBox& box, bool bounded, bool best_instructions,
                      Scratch& scratch)
@@ -136,48 +29,63 @@ ScanMarks::~ScanMarks() {
   scratch_.occupied.clear();
 }
 
-/// Adds points four at a time from the four quarters of the list: rays marked at the same time should not be
-/// neighbours, or they wait for each other's writes to the same word. `before(p)` may change the point, or
-/// return false to leave it out.
-template <class Before>
-void ScanMarks::addSpread(std::span<const Vector3f> points, Before&& before) {
-  const std::size_t part = (points.size() + kLanes - 1) / kLanes;
-  for (std::size_t i = 0; i < part; ++i) {
-    std::array<Vector3f, kLanes> ends;
-    std::size_t count = 0;
-    for (std::size_t j = i; j < points.size(); j += part) {
-      ends[count] = points[j];
-      if (before(ends[count])) ++count;
-    }
-    if (count > 0) addRays(ends, count);
-  }
-}
-
 void ScanMarks::addHits(std::span<const Vector3f> points) {
-  addSpread(points, [this](Vector3f& p) {
-    if (scan_.isTooLong(p)) {
-      p = scan_.cut(p);
-      return true;
-    }
-    Key key;
-    if (!scan_.grid().checkedKey(p, key)) return false;
+  Key key;
+  for (const Vector3f& p : points) {
+    if (scan_.isTooLong(p) || !scan_.grid().checkedKey(p, key)) continue;
     if (box_.contains(key)) scratch_.occupied.mark(frame_.localCode(key));
-    return true;
-  });
+  }
+  addBeams(points);
 }
 
 void ScanMarks::addPassing(std::span<const Vector3f> points) {
-  addSpread(points, [this](Vector3f& p) {
-    if (scan_.isTooLong(p)) p = scan_.cut(p);
-    return true;
-  });
+  addBeams(points);
 }
 
-void ScanMarks::addRays(const std::array<Vector3f, kLanes>& ends, std::size_t count) {
+void ScanMarks::addBeams(std::span<const Vector3f> points) {
   if (!fan_) return;
+  if (!box_.contains(caster_.originKey()) || !isDense(scan_, points)) {
+    addSpread(points.size(),
+              [&](std::size_t i, Ends& ends) { ends.points[ends.count++] = scan_.end(points[i]); });
+    return;
+  }
+  const std::vector<AimedBeam> beams = orderByDirection(scan_, points);
+  if (!reach_) reach_.emplace(scan_.grid(), scan_.origin(), frame_, scratch_.free);
+  const auto addOneIn = [&](std::size_t stride, std::size_t first) {
+    if (beams.size() <= first) return;
+    reach_->refresh();
+    addSpread((beams.size() - first + stride - 1) / stride, [&](std::size_t i, Ends& ends) {
+      const AimedBeam& beam = beams[first + i * stride];
+      const int steps = reach_->stepsMarked(beam.direction);
+      ends.points[ends.count] = beam.end;
+      ends.skip_steps[ends.count] = steps;
+      ends.skip_axis[ends.count] = MarkedReach::axisOf(beam.direction);
+      ends.skips |= steps > 0;
+      ++ends.count;
+    });
+  };
+  // Few beams in all directions first, then those between them.
+  constexpr std::size_t kCoarsest = 32;
+  addOneIn(kCoarsest, 0);
+  for (std::size_t stride = kCoarsest; stride > 1; stride /= 2) addOneIn(stride, stride / 2);
+}
+
+/// Adds beams four at a time from the four quarters of a list: rays marked at the same time should not be
+/// neighbours, or they wait for each other's writes to the same word.
+template <class BeamAt>
+void ScanMarks::addSpread(std::size_t count, BeamAt&& beamAt) {
+  const std::size_t part = (count + kLanes - 1) / kLanes;
+  for (std::size_t i = 0; i < part; ++i) {
+    Ends ends;
+    for (std::size_t j = i; j < count; j += part) beamAt(j, ends);
+    addRays(ends);
+  }
+}
+
+void ScanMarks::addRays(const Ends& ends) {
   RayBatch batch;
-  prepare_(*fan_, ends, count, batch);
-  for (std::size_t lane = 0; lane < count; ++lane) {
+  prepare_(*fan_, ends, batch);
+  for (std::size_t lane = 0; lane < ends.count; ++lane) {
     switch (batch.state[lane]) {
       case RayBatch::State::none:
         break;
@@ -185,7 +93,7 @@ void ScanMarks::addRays(const std::array<Vector3f, kLanes>& ends, std::size_t co
         marker_.add(batch.start, lane, batch.cells[lane]);
         break;
       case RayBatch::State::special:
-        addSpecial(ends[lane]);
+        addSpecial(ends.points[lane]);
         break;
     }
   }

@@ -5,9 +5,10 @@
 #include <vector>
 
 #include "BlockView.h"
+#include "MarkedReach.h"
 #include "RayBatch.h"
 #include "RayClip.h"
-#include "hoctomap/octree/BlockScanUpdate.h"
+#include "ScanBeams.h"
 
 namespace hoctomap::engine {
 
@@ -15,45 +16,6 @@ namespace hoctomap::engine {
 struct Scratch {
   VoxelBits free;
   VoxelBits occupied;
-};
-
-/// The beams of a scan as octomap takes them: cut at the maximum range.
-class ScanBeams {
- public:
-  ScanBeams(const VoxelGrid& grid, const Beams& beams);
-
-  [[nodiscard]] const VoxelGrid& grid() const { return grid_; }
-  [[nodiscard]] const Eigen::Vector3f& origin() const { return beams_.origin; }
-  /// Keys that the scan may change, but for the strays.
-  [[nodiscard]] const KeyBox& box() const { return box_; }
-  /// Free voxels outside `box()`. At the end of the key range octomap's keys wrap to the other end.
-  [[nodiscard]] const std::vector<Key>& strays() const { return strays_; }
-  /// Endpoints that no key can address.
-  [[nodiscard]] std::size_t beyondKeyRange() const { return beyond_key_range_; }
-  /// Whether beams may leave that box.
-  [[nodiscard]] bool bounded() const { return beams_.bounds.has_value(); }
-  [[nodiscard]] const Beams& beams() const { return beams_; }
-
-  /// True if `end` is an endpoint that becomes occupied, not a point on a beam that goes on.
-  [[nodiscard]] bool isTooLong(const Eigen::Vector3f& end) const {
-    return beams_.max_range >= 0.0 && norm(end - beams_.origin) > beams_.max_range;
-  }
-  [[nodiscard]] Eigen::Vector3f cut(const Eigen::Vector3f& end) const;
-
- private:
-  // As octomap, with its order of operations: they decide the last bit of the new end.
-  [[nodiscard]] static double norm(const Eigen::Vector3f& v) {
-    return std::sqrt(static_cast<double>(v.x() * v.x() + v.y() * v.y() + v.z() * v.z()));
-  }
-
-  [[nodiscard]] bool allAddressable() const;
-  void findOddities(const KeyBox& reach, const KeyBox& bounds);
-
-  const VoxelGrid& grid_;
-  const Beams& beams_;
-  KeyBox box_;
-  std::vector<Key> strays_;
-  std::size_t beyond_key_range_ = 0;
 };
 
 /// Collects the voxels of a scan that lie in a box.
@@ -80,9 +42,10 @@ class ScanMarks {
   [[nodiscard]] std::vector<BlockMarks> blocks() const;
 
  private:
-  template <class Before>
-  void addSpread(std::span<const Eigen::Vector3f> points, Before&& before);
-  void addRays(const std::array<Eigen::Vector3f, kLanes>& ends, std::size_t count);
+  void addBeams(std::span<const Eigen::Vector3f> points);
+  template <class BeamAt>
+  void addSpread(std::size_t count, BeamAt&& beamAt);
+  void addRays(const Ends& ends);
   void addSpecial(const Eigen::Vector3f& end);
 
   const ScanBeams& scan_;
@@ -94,6 +57,7 @@ class ScanMarks {
   RayCaster caster_;
   PrepareRays prepare_;
   RayMarker marker_;
+  std::optional<MarkedReach> reach_;  ///< for large scans from inside the box
 };
 
 }  // namespace hoctomap::engine

@@ -13,13 +13,14 @@ enum class Instructions {
   baseline,  ///< what every processor of the architecture has
 };
 
-/// The fast update: the same tree as `makeReferenceScanUpdate`, to the last byte of its `.ot` file, in about
-/// a hundredth of the time.
+/// The fast update: the same tree as `makeReferenceScanUpdate`, to the last byte of its `.ot` file, many
+/// times faster (ENGINE.md says how many).
 ///
 /// The voxels of a scan are collected as bits (two bitmaps, free and occupied), then the tree is updated in
-/// one pass. Memory beyond the tree: 4 KB for each 32^3 voxels that a beam meets, about 8 MB at a time and
-/// thread. Uses the threads of the calling oneTBB arena; the tree is the same for any number of them.
-/// The memory is kept for the next update: use one engine for all of them.
+/// one pass. Memory beyond the tree: 4 KB for each 32^3 voxels that a beam meets, at most about 8 MB at a
+/// time and thread, and 32 bytes a beam of a dense scan. Uses the threads of the calling oneTBB arena; the
+/// tree is the same for any number of them. The memory is kept for the next update: use one engine for all of
+/// them.
 ///
 /// A tree with change detection enabled is updated by the reference, which keeps the record of changed keys.
 /// One engine may serve several threads at once, each with its own tree.
