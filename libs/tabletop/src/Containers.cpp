@@ -22,15 +22,18 @@ std::size_t at(std::int32_t i) {
 
 /// What two regions share.
 struct Shared {
-  double length = 0.0;  ///< pixel pairs
-  double rim = 0.0;     ///< of them contacts, and steps at which the other region is in front
+  double length = 0.0;   ///< pixel pairs
+  double contact = 0.0;  ///< of them those where the surface goes on
+  double behind = 0.0;   ///< steps at which the other region is in front
+
+  [[nodiscard]] double rim() const { return contact + behind; }
 };
 
 struct RegionShape {
   double area = 0.0;
   double perimeter = 0.0;
-  double bend = 0.0;    ///< curvature x pixels
-  double inner = 0.0;   ///< pixels of its inner borders
+  double bend = 0.0;   ///< curvature x pixels
+  double inner = 0.0;  ///< pixels of its inner borders
   std::map<std::int32_t, Shared> shared;
 
   [[nodiscard]] double curvature() const { return inner > 0.0 ? bend / inner : 0.0; }
@@ -58,8 +61,10 @@ std::vector<RegionShape> shapesOf(const PatchGraph& graph, const PatchRegions& r
     auto& of_b = shapes[at(b)].shared[a];
     of_a.length += border.length;
     of_b.length += border.length;
-    of_a.rim += contact + (border.jumps - border.in_front) / 2.0;
-    of_b.rim += contact + (border.jumps + border.in_front) / 2.0;
+    of_a.contact += contact;
+    of_b.contact += contact;
+    of_a.behind += (border.jumps - border.in_front) / 2.0;
+    of_b.behind += (border.jumps + border.in_front) / 2.0;
   }
   return shapes;
 }
@@ -77,6 +82,15 @@ void apply(UnionFind& sets, PatchRegions& regions) {
 
 using Flags = std::vector<std::uint8_t>;
 
+/// Whether a region that shares `contact` with an inside is its floor: no solid thing, and all around either
+/// that inside or something that hides it.
+bool isFloor(const RegionShape& shape, double contact) {
+  if (shape.curvature() <= kLeastSolid) return false;
+  double enclosed = contact;
+  for (const auto& [other, shared] : shape.shared) enclosed += shared.behind;
+  return enclosed > kEnclosed * shape.perimeter;
+}
+
 /// Unites the parts of one inside; returns which regions are insides.
 Flags uniteInsides(const PatchGraph& graph, double least, PatchRegions& regions) {
   const auto shapes = shapesOf(graph, regions);
@@ -88,7 +102,8 @@ Flags uniteInsides(const PatchGraph& graph, double least, PatchRegions& regions)
     if (!isInside(r)) continue;
     for (const auto& [other, shared] : shapes[at(r)].shared) {
       const double smaller = std::min(shapes[at(r)].perimeter, shapes[at(other)].perimeter);
-      if (isInside(other) && shared.length > kSharedInside * smaller) {
+      if (shared.length <= kSharedInside * smaller) continue;
+      if (isInside(other) || isFloor(shapes[at(other)], shared.contact)) {
         sets.join(static_cast<std::uint32_t>(r), static_cast<std::uint32_t>(other));
       }
     }
@@ -112,10 +127,10 @@ Flags joinOutsides(const PatchGraph& graph, const Flags& inside, PatchRegions& r
     std::int32_t outside = -1;
     double most = kSharedRim * shapes[at(r)].perimeter;
     for (const auto& [other, shared] : shapes[at(r)].shared) {
-      if (inside[at(other)] || shared.rim <= most) continue;
+      if (inside[at(other)] || shared.rim() <= most) continue;
       if (shapes[at(other)].area < kLeastOutside * shapes[at(r)].area) continue;
       outside = other;
-      most = shared.rim;
+      most = shared.rim();
     }
     joined[at(r)] = 1;
     if (outside < 0) continue;

@@ -84,7 +84,8 @@ ObjectImage project(const Measurement& z, std::span<const Candidate> candidates)
   for (std::size_t i = 0; i < w.size(); ++i) {
     const auto at = camera.project(z.world_points[i]);
     if (!at || at->u < crop.left || at->u > crop.right || at->v < crop.top || at->v > crop.bottom) continue;
-    const auto pixel = static_cast<std::uint32_t>((at->v - crop.top) * result.image.width + at->u - crop.left);
+    const auto pixel =
+        static_cast<std::uint32_t>((at->v - crop.top) * result.image.width + at->u - crop.left);
     result.pixel_of_point[i] = pixel;
     w[i] = static_cast<float>(at->w);
     result.image.w[pixel] = std::max(result.image.w[pixel], w[i]);

@@ -14,7 +14,8 @@ struct ObjectImage {
   static constexpr std::uint32_t kNone = 0xFFFFFFFFU;
 
   InverseDepthImage image;
-  std::vector<std::uint32_t> pixel_of_point;  ///< of every point of the measurement; kNone: not in the picture
+  std::vector<std::uint32_t>
+      pixel_of_point;  ///< of every point of the measurement; kNone: not in the picture
 };
 
 /// The picture of the candidates and what surrounds them: a part of the sensor's image, or, of an unorganised

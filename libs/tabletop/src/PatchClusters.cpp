@@ -47,6 +47,7 @@ std::vector<Cluster> patchClusters(const Measurement& z, const TableSurface& tab
       if (c.cell < table.grid.size()) add(c, things[pixel]);
     }
   }
+  std::erase_if(clusters, [](const Cluster& cluster) { return cluster.empty(); });
   return clusters;
 }
 

@@ -13,6 +13,8 @@ constexpr double kDegrees = 180.0 / std::numbers::pi;
 constexpr int kPoolings = 2;           // of the moments with those of the neighbours
 constexpr int kSmoothings = 2;         // of the normals
 constexpr double kSmoothAngle = 15.0;  // degrees; normals that differ more belong to different faces
+// Pixels by which a triangulating sensor misplaces an edge; on a steep surface they make a step.
+constexpr double kEdgeError = 2.0;
 constexpr double kAhead = 0.6;         // least cosine of what lies on the far side of a patch
 constexpr double kMostConvex = -30.0;  // degrees that a border may count
 constexpr double kStep = 60.0;         // degrees that a step counts, and a crease at most
@@ -83,9 +85,13 @@ class BorderCounter {
     if (a > b) std::swap(a, b);
     PatchBorder& border = borderOf(a, b);
     border.length += 1.0;
-    if (step <= jump_) return;
-    const double between = patches_.planes[ix(a)].at(u, v) - patches_.planes[ix(b)].at(u, v);
-    if (std::abs(between) <= jump_) return;
+    const PatchPlane& of_a = patches_.planes[ix(a)];
+    const PatchPlane& of_b = patches_.planes[ix(b)];
+    const double slopes = std::hypot(of_a.a, of_a.b) + std::hypot(of_b.a, of_b.b);
+    const double jump = jump_ + kEdgeError * slopes;
+    if (step <= jump) return;
+    const double between = of_a.at(u, v) - of_b.at(u, v);
+    if (std::abs(between) <= jump) return;
     border.jumps += 1.0;
     border.in_front += between > 0.0 ? 1.0 : -1.0;
   }
@@ -160,8 +166,7 @@ void measureCreases(PatchGraph& graph) {
   for (auto& border : graph.borders) {
     const Eigen::Vector3d n = graph.normals[ix(border.a)] - graph.normals[ix(border.b)];
     const Eigen::Vector3d x = graph.centers[ix(border.a)] - graph.centers[ix(border.b)];
-    const double cosine =
-        std::clamp(graph.normals[ix(border.a)].dot(graph.normals[ix(border.b)]), -1.0, 1.0);
+    const double cosine = std::clamp(graph.normals[ix(border.a)].dot(graph.normals[ix(border.b)]), -1.0, 1.0);
     const double angle = std::acos(cosine) * kDegrees;
     border.crease = n.dot(x) < 0.0 ? angle : -angle;
     border.distance = x.norm();
@@ -196,13 +201,12 @@ void weighEvidence(const SurfacePatches& patches, PatchGraph& graph) {
   for (auto& border : graph.borders) {
     double crease = border.crease;
     if (crease > 0.0) {
-      const double beyond =
-          std::min(bendBeyond(graph, patches, border.a, border.b), bendBeyond(graph, patches, border.b, border.a));
+      const double beyond = std::min(bendBeyond(graph, patches, border.a, border.b),
+                                     bendBeyond(graph, patches, border.b, border.a));
       if (beyond > 0.0) crease = std::max(0.0, crease - beyond);
     }
     const double jump_share = border.jumps / border.length;
-    border.evidence =
-        jump_share * kStep + (1.0 - jump_share) * std::clamp(crease, kMostConvex, kStep);
+    border.evidence = jump_share * kStep + (1.0 - jump_share) * std::clamp(crease, kMostConvex, kStep);
   }
 }
 

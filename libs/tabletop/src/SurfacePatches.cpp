@@ -9,8 +9,8 @@
 namespace hoctomap {
 namespace {
 
-constexpr double kCellAngle = 0.0152;  // rad, edge of a patch: 15 mm at 1 m
-constexpr int kLeastCell = 4;          // pixels; fewer do not hold a plane against the noise
+constexpr double kCellAngle = 0.0152;    // rad, edge of a patch: 15 mm at 1 m
+constexpr int kLeastCell = 4;            // pixels; fewer do not hold a plane against the noise
 constexpr double kBridgeAngle = 0.0057;  // rad: shadows of the projector along the edges of objects
 // A patch spans curvature and the steps of the disparity: its scatter is larger than the noise of one range.
 constexpr double kScatterOfNoise = 10.0 / 3.0;

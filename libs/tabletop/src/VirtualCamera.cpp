@@ -61,8 +61,8 @@ VirtualCamera::VirtualCamera(const Measurement& z, std::span<const Candidate> ca
     axis += directions.back();
   }
   axis = axis.norm() > 1e-9 ? axis.normalized() : Eigen::Vector3d(Eigen::Vector3d::UnitX());
-  const Eigen::Vector3d up =
-      std::abs(axis.z()) < 0.99 ? Eigen::Vector3d(Eigen::Vector3d::UnitZ()) : Eigen::Vector3d(Eigen::Vector3d::UnitX());
+  const Eigen::Vector3d up = std::abs(axis.z()) < 0.99 ? Eigen::Vector3d(Eigen::Vector3d::UnitZ())
+                                                       : Eigen::Vector3d(Eigen::Vector3d::UnitX());
   const Eigen::Vector3d right = axis.cross(up).normalized();
   camera_R_world_ << right.transpose(), axis.cross(right).transpose(), axis.transpose();
 

@@ -13,7 +13,7 @@ enum class SegmentationMethod { euclidean, convex_patches };
 
 /// Parameters of the segmentation S' (Section IV-A); metres, degrees.
 struct TabletopSegmentationConfig {
-  SegmentationMethod method = SegmentationMethod::euclidean;
+  SegmentationMethod method = SegmentationMethod::convex_patches;
 
   // Tables
   double table_height_min = 0.5;   ///< m, z of a table's centre in the world
