@@ -13,6 +13,7 @@ using Action = std::function<int()>;
 // chosen.
 void addViACommand(CLI::App& app, Action& action);
 void addPerformanceCommand(CLI::App& app, Action& action);
+void addSegmentationCommand(CLI::App& app, Action& action);
 void addMeasureCommand(CLI::App& app, Action& action);
 
 }  // namespace hoctomap

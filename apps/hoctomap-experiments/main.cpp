@@ -25,6 +25,7 @@ int main(int argc, char** argv) {
   hoctomap::Action action;
   hoctomap::addViACommand(app, action);
   hoctomap::addPerformanceCommand(app, action);
+  hoctomap::addSegmentationCommand(app, action);
   hoctomap::addMeasureCommand(app, action);
 
   try {
