@@ -163,7 +163,8 @@ std::vector<ShapedCluster> distantObjects(const ScanBlocks& scan, const TableSur
 std::vector<ShapedCluster> convexObjects(const ScanBlocks& scan, const TableSurface& table,
                                          const Regions& regions, const std::vector<bool>& taken,
                                          const std::vector<bool>& in_object, const Config& config) {
-  const auto candidates = objectCandidates(scan, table, regions, taken, config);
+  auto candidates = objectCandidates(scan, table, regions, taken, config);
+  dropFlatLayers(table, candidates, config);
   auto clusters = patchClusters(scan.z(), table, candidates, in_object, config);
   return standing(std::move(clusters), table, regions, scan.z(), config);
 }

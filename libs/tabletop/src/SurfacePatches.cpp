@@ -9,8 +9,10 @@
 namespace hoctomap {
 namespace {
 
-constexpr double kCellAngle = 0.0152;    // rad, edge of a patch: 15 mm at 1 m
+// rad at 1 m, of the normal of a patch: what the noise of its pixels leaves. 15 mm for a Kinect at 1 m.
+constexpr double kNormalError = 0.043;
 constexpr int kLeastCell = 4;            // pixels; fewer do not hold a plane against the noise
+constexpr double kWidestCell = 0.035;    // rad; what is wider spans things
 constexpr double kBridgeAngle = 0.0057;  // rad: shadows of the projector along the edges of objects
 // A patch spans curvature and the steps of the disparity: its scatter is larger than the noise of one range.
 constexpr double kScatterOfNoise = 10.0 / 3.0;
@@ -24,6 +26,13 @@ constexpr double kTinyPenalty = 3.0;      // for patches too small to have a pla
 constexpr double kTinyShare = 10.0 / 64;  // of a cell
 constexpr double kScrapShare = 12.0 / 64;
 constexpr double kMostScrapMisfit = 25.0;
+
+/// Pixels. The slope of a square of n x n pixels in w has the standard deviation sqrt(12) noise / n^2, which
+/// tilts the normal by that times the focal length.
+int cellOf(double focal_length, double noise) {
+  const double cell = std::sqrt(std::sqrt(12.0) * noise * focal_length / kNormalError);
+  return std::max(kLeastCell, static_cast<int>(std::lround(std::min(cell, kWidestCell * focal_length))));
+}
 
 using Labels = std::vector<std::int32_t>;
 
@@ -183,7 +192,7 @@ std::size_t dissolveScraps(const InverseDepthImage& image, const PatchScales& sc
 PatchScales::PatchScales(const InverseDepthImage& image, double range_noise)
     : scatter(kScatterOfNoise * std::max(range_noise, kLeastNoise)),
       jump(kJumpOfScatter * scatter),
-      cell(std::max(kLeastCell, static_cast<int>(std::lround(kCellAngle * image.focalLength())))),
+      cell(cellOf(image.focalLength(), std::max(range_noise, kLeastNoise))),
       ridge(std::pow(cell, 4) / 512.0),
       bridge(std::max(1, static_cast<int>(std::lround(kBridgeAngle * image.focalLength())))) {}
 
