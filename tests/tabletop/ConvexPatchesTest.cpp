@@ -100,9 +100,9 @@ void expectEachIsOne(const Desk& desk, const Desk::Scan& scan, double least = 0.
 
 TEST(ConvexPatches, TouchingBoxesAreTwo) {
   Desk desk;
-  desk.put(BoxShape{{0.10, 0.14, 0.12}}, 0.0, -0.071);
-  desk.put(BoxShape{{0.16, 0.14, 0.07}}, 0.0, 0.071);
-  expectEachIsOne(desk, desk.look());
+  desk.put(BoxShape{{0.10, 0.14, 0.12}}, 0.0, -0.371);
+  desk.put(BoxShape{{0.16, 0.14, 0.07}}, 0.0, -0.229);
+  expectEachIsOne(desk, desk.look(), 0.85);  // the wall between them is seen at 70 degrees
 }
 
 TEST(ConvexPatches, ABoxBeforeAnotherIsTwo) {
