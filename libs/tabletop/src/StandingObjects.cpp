@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "EnclosedPieces.h"
 #include "ObjectCandidates.h"
 #include "PatchClusters.h"
 #include "ScanBlocks.h"
@@ -166,6 +167,7 @@ std::vector<ShapedCluster> convexObjects(const ScanBlocks& scan, const TableSurf
   auto candidates = objectCandidates(scan, table, regions, taken, config);
   dropFlatLayers(table, candidates, config);
   auto clusters = patchClusters(scan.z(), table, candidates, in_object, config);
+  joinEnclosedPieces(clusters, scan.z());
   return standing(std::move(clusters), table, regions, scan.z(), config);
 }
 
