@@ -14,6 +14,7 @@ using Action = std::function<int()>;
 void addViACommand(CLI::App& app, Action& action);
 void addPerformanceCommand(CLI::App& app, Action& action);
 void addChangesCommand(CLI::App& app, Action& action);
+void addSegmentationCommand(CLI::App& app, Action& action);
 void addMeasureCommand(CLI::App& app, Action& action);
 
 }  // namespace hoctomap

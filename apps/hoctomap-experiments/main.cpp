@@ -26,6 +26,7 @@ int main(int argc, char** argv) {
   hoctomap::addViACommand(app, action);
   hoctomap::addPerformanceCommand(app, action);
   hoctomap::addChangesCommand(app, action);
+  hoctomap::addSegmentationCommand(app, action);
   hoctomap::addMeasureCommand(app, action);
 
   try {

@@ -79,7 +79,8 @@ TEST(SettingsDefects, Words) {
       {Defect{"label.table.frame=pac", "[label.table] frame: \"pac\" is none of world, pca"},
        Defect{"label.table.carve=all", "[label.table] carve: \"all\" is none of own, scan"},
        Defect{"label.table.existence=1", "[label.table] existence: \"1\" is none of false, true"},
-       Defect{"segmentation.method=euklidean", "[segmentation] method: \"euklidean\" is none of euclidean"},
+       Defect{"segmentation.method=euklidean",
+              "[segmentation] method: \"euklidean\" is none of euclidean, convex_patches"},
        Defect{"mapping.checkpoint_scans=0.5", "[mapping] checkpoint_scans: \"0.5\" is not a whole number"},
        Defect{"mapping.checkpoint_scans=0",
               "[mapping] checkpoint_scans: \"0\" is out of range: must be >= 1 and <= 1000000"}});

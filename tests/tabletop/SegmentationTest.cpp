@@ -19,11 +19,23 @@ using test::uniform;
 const Eigen::Vector3d kEye(0.0, 0.0, 1.4);
 const Eigen::Vector3d kTarget(0.9, 0.0, 0.75);
 
-std::vector<Segment> segment(const Measurement& z, std::uint64_t seed = 1) {
-  TabletopSegmentationConfig config;
-  config.seed = seed;
-  return TabletopSegmentation(config).segment(z);
-}
+/// What holds whatever tells objects apart.
+class TabletopSegmentationTest : public testing::TestWithParam<SegmentationMethod> {
+ protected:
+  [[nodiscard]] static std::vector<Segment> segment(const Measurement& z, std::uint64_t seed = 1) {
+    TabletopSegmentationConfig config;
+    config.method = GetParam();
+    config.seed = seed;
+    return TabletopSegmentation(config).segment(z);
+  }
+};
+
+INSTANTIATE_TEST_SUITE_P(Methods, TabletopSegmentationTest,
+                         testing::Values(SegmentationMethod::euclidean, SegmentationMethod::convex_patches),
+                         [](const auto& of) {
+                           return std::string(of.param == SegmentationMethod::euclidean ? "Euclidean"
+                                                                                        : "ConvexPatches");
+                         });
 
 /// A floor, a wall, a table whose top is at 0.75 m, and objects on it that keep a distance from each other.
 struct RandomTable {
@@ -59,7 +71,7 @@ void expectPartition(const Measurement& z, const std::vector<Segment>& segments)
                              [](const auto& a, const auto& b) { return a.structure < b.structure; }));
 }
 
-TEST(TabletopSegmentation, FindsEveryObjectOfRandomScenes) {
+TEST_P(TabletopSegmentationTest, FindsEveryObjectOfRandomScenes) {
   for (std::uint64_t seed = 1; seed <= 8; ++seed) {
     Rng rng(seed);
     const RandomTable table(rng);
@@ -82,7 +94,7 @@ TEST(TabletopSegmentation, FindsEveryObjectOfRandomScenes) {
   }
 }
 
-TEST(TabletopSegmentation, GivesTheTablesPlane) {
+TEST_P(TabletopSegmentationTest, GivesTheTablesPlane) {
   Rng rng(3);
   const RandomTable table(rng);
   const auto z = table.scene.look(kEye, kTarget, &rng);
@@ -93,7 +105,7 @@ TEST(TabletopSegmentation, GivesTheTablesPlane) {
   EXPECT_GT(planes[0].plane->signedDistance(z.origin()), 0.0);
 }
 
-TEST(TabletopSegmentation, DependsOnNothingButScanAndSeed) {
+TEST_P(TabletopSegmentationTest, DependsOnNothingButScanAndSeed) {
   Rng rng(5);
   const RandomTable table(rng);
   const auto z = table.scene.look(kEye, kTarget, &rng);
@@ -104,7 +116,7 @@ TEST(TabletopSegmentation, DependsOnNothingButScanAndSeed) {
   EXPECT_EQ(segment(z, 11).size(), once.size());  // another seed finds the same things
 }
 
-TEST(TabletopSegmentation, UnorganisedCloudsGiveNearlyTheSame) {
+TEST_P(TabletopSegmentationTest, UnorganisedCloudsGiveNearlyTheSame) {
   Rng rng(6);
   const RandomTable table(rng);
   auto z = table.scene.look(kEye, kTarget, &rng);
@@ -121,7 +133,7 @@ TEST(TabletopSegmentation, UnorganisedCloudsGiveNearlyTheSame) {
   }
 }
 
-TEST(TabletopSegmentation, TakesEmptyAndTinyClouds) {
+TEST_P(TabletopSegmentationTest, TakesEmptyAndTinyClouds) {
   EXPECT_TRUE(segment(Measurement{}).empty());
   Measurement z;
   for (int n = 1; n < 6; ++n) {
@@ -133,7 +145,7 @@ TEST(TabletopSegmentation, TakesEmptyAndTinyClouds) {
   }
 }
 
-TEST(TabletopSegmentation, TakesAnyHeapOfPoints) {
+TEST_P(TabletopSegmentationTest, TakesAnyHeapOfPoints) {
   for (std::uint64_t seed = 1; seed <= 6; ++seed) {
     Rng rng(seed);
     Measurement z;
@@ -147,7 +159,7 @@ TEST(TabletopSegmentation, TakesAnyHeapOfPoints) {
   }
 }
 
-TEST(TabletopSegmentation, MugOnPaperIsAMug) {
+TEST_P(TabletopSegmentationTest, MugOnPaperIsAMug) {
   BoxScene scene;
   scene.add(0.95, 0.0, 0.72, 0.8, 1.4, 0.03);
   scene.add(0.95, 0.0, 0.75, 0.3, 0.4, 0.012);  // papers: too high for table noise, too low for an object
@@ -163,7 +175,7 @@ TEST(TabletopSegmentation, MugOnPaperIsAMug) {
   }
 }
 
-TEST(TabletopSegmentation, ObjectCutByTheImageIsAnObject) {
+TEST_P(TabletopSegmentationTest, ObjectCutByTheImageIsAnObject) {
   BoxScene scene;
   scene.add(0.95, 0.0, 0.72, 0.8, 3.0, 0.03);
   const auto cut = scene.add(0.9, 0.6, 0.75, 0.1, 0.12, 0.15);
@@ -177,7 +189,7 @@ TEST(TabletopSegmentation, ObjectCutByTheImageIsAnObject) {
   EXPECT_TRUE(touches_border);  // or the scene does not show what it should
 }
 
-TEST(TabletopSegmentation, ObjectHiddenByAnotherStands) {
+TEST_P(TabletopSegmentationTest, ObjectHiddenByAnotherStands) {
   BoxScene scene;
   scene.add(0.95, 0.0, 0.72, 0.8, 1.4, 0.03);
   scene.add(0.75, 0.0, 0.75, 0.1, 0.3, 0.15);

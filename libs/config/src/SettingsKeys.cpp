@@ -87,7 +87,7 @@ constexpr auto settings_keys = std::to_array<Key<Settings>>({
      &at<&S::existence, &E::noise, &RangeNoise::quadratic>},
 
     {"segmentation", "method", "", any, "How the objects on a table are told apart (Section IV-A)",
-     &at<&S::method>},
+     &at<&S::tabletop, &T::method>},
     {"segmentation", "table_height_min", "m", within(-1000, 1000),
      "Lowest height of a table: z of its centre in the world frame", &at<&S::tabletop, &T::table_height_min>},
     {"segmentation", "table_height_max", "m", within(-1000, 1000), "Largest height of a table",

@@ -22,7 +22,7 @@ inline constexpr const char* none = "none";
 template <class T>
 [[nodiscard]] std::vector<std::string> words() {
   if constexpr (std::is_same_v<T, bool>) return {"false", "true"};
-  if constexpr (std::is_same_v<T, SegmentationMethod>) return {"euclidean"};
+  if constexpr (std::is_same_v<T, SegmentationMethod>) return {"euclidean", "convex_patches"};
   if constexpr (std::is_same_v<T, FrameChoice>) return {"world", "pca"};
   if constexpr (std::is_same_v<T, Carve>) return {"own", "scan"};
   return {};

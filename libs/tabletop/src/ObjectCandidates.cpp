@@ -66,8 +66,21 @@ void dropLonePixels(const Measurement& z, std::vector<Candidate>& candidates) {
   std::erase_if(candidates, lone);
 }
 
-/// Drops layers that are low and broad. A sheet of paper is no object, and must not tie a mug to the
-/// magazines beside it.
+}  // namespace
+
+Regions::Regions(const TableSurface& table)
+    : contact(table.grid.dilated(table.extent, table.grid.cellSize())),
+      inside(table.grid.dilated(table.extent, kOverhang)),
+      around(table.grid.dilated(table.extent, kSurround)) {}
+
+std::vector<Candidate> objectCandidates(const ScanBlocks& scan, const TableSurface& table,
+                                        const Regions& regions, const std::vector<bool>& taken,
+                                        const TabletopSegmentationConfig& config) {
+  auto candidates = pointsAround(scan, table, regions, taken, config);
+  dropLonePixels(scan.z(), candidates);
+  return candidates;
+}
+
 void dropFlatLayers(const TableSurface& table, std::vector<Candidate>& candidates,
                     const TabletopSegmentationConfig& config) {
   const auto& grid = table.grid;
@@ -84,22 +97,6 @@ void dropFlatLayers(const TableSurface& table, std::vector<Candidate>& candidate
   flat = grid.dilated(flat, kFlatBreadth / 2.0 - grid.cellSize() / 2.0);
   std::erase_if(candidates,
                 [&](const Candidate& c) { return flat[c.cell] && !not_flat[c.cell] && isLow(c); });
-}
-
-}  // namespace
-
-Regions::Regions(const TableSurface& table)
-    : contact(table.grid.dilated(table.extent, table.grid.cellSize())),
-      inside(table.grid.dilated(table.extent, kOverhang)),
-      around(table.grid.dilated(table.extent, kSurround)) {}
-
-std::vector<Candidate> objectCandidates(const ScanBlocks& scan, const TableSurface& table,
-                                        const Regions& regions, const std::vector<bool>& taken,
-                                        const TabletopSegmentationConfig& config) {
-  auto candidates = pointsAround(scan, table, regions, taken, config);
-  dropLonePixels(scan.z(), candidates);
-  dropFlatLayers(table, candidates, config);
-  return candidates;
 }
 
 double clusterTolerance(std::vector<Candidate> candidates, const TabletopSegmentationConfig& config) {

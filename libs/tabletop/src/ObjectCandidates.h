@@ -25,11 +25,16 @@ struct Regions {
 };
 
 /// The points from which the objects on a table are clustered, ascending: those above it, and, so that what
-/// only passes by is known for what it is, those around and below its edge. Without the points in `taken`,
-/// flying pixels and flat layers such as papers.
+/// only passes by is known for what it is, those around and below its edge. Without the points in `taken` and
+/// flying pixels.
 [[nodiscard]] std::vector<Candidate> objectCandidates(const ScanBlocks& scan, const TableSurface& table,
                                                       const Regions& regions, const std::vector<bool>& taken,
                                                       const TabletopSegmentationConfig& config);
+
+/// Drops layers that are low and broad. A sheet of paper is no object, and must not tie a mug to the
+/// magazines beside it.
+void dropFlatLayers(const TableSurface& table, std::vector<Candidate>& candidates,
+                    const TabletopSegmentationConfig& config);
 
 /// The distance that joins two candidates. More than `cluster_tolerance` where the sensor scatters a surface
 /// so much that it would fall apart.

@@ -5,7 +5,9 @@
 #include <algorithm>
 #include <cmath>
 
+#include "EnclosedPieces.h"
 #include "ObjectCandidates.h"
+#include "PatchClusters.h"
 #include "ScanBlocks.h"
 #include "Vessels.h"
 #include "hoctomap/tabletop/EuclideanClusters.h"
@@ -146,11 +148,35 @@ std::vector<Cluster> clustersOf(const std::vector<Candidate>& candidates, const 
   return clusters;
 }
 
+/// Objects told apart by their distance, as in the paper.
+std::vector<ShapedCluster> distantObjects(const ScanBlocks& scan, const TableSurface& table,
+                                          const Regions& regions, const std::vector<bool>& taken,
+                                          const Config& config) {
+  auto candidates = objectCandidates(scan, table, regions, taken, config);
+  dropFlatLayers(table, candidates, config);
+  auto clusters = clustersOf(candidates, scan.z(), clusterTolerance(candidates, config));
+  auto objects = standing(std::move(clusters), table, regions, scan.z(), config);
+  joinVessels(objects, scan.z(), config);
+  return objects;
+}
+
+/// Objects told apart by their surfaces.
+std::vector<ShapedCluster> convexObjects(const ScanBlocks& scan, const TableSurface& table,
+                                         const Regions& regions, const std::vector<bool>& taken,
+                                         const std::vector<bool>& in_object, const Config& config) {
+  auto candidates = objectCandidates(scan, table, regions, taken, config);
+  dropFlatLayers(table, candidates, config);
+  auto clusters = patchClusters(scan.z(), table, candidates, in_object, config);
+  joinEnclosedPieces(clusters, scan.z());
+  return standing(std::move(clusters), table, regions, scan.z(), config);
+}
+
 }  // namespace
 
 std::vector<PointIndices> findStandingObjects(const Measurement& z, std::span<const TableSurface> tables,
                                               const TabletopSegmentationConfig& config) {
   std::vector<bool> taken(z.world_points.size(), false);
+  std::vector<bool> in_object(z.world_points.size(), false);
   for (const auto& table : tables) {
     for (const auto i : table.points) taken[i] = true;
   }
@@ -158,15 +184,14 @@ std::vector<PointIndices> findStandingObjects(const Measurement& z, std::span<co
   std::vector<PointIndices> objects;
   for (const auto& table : tables) {
     const Regions regions(table);
-    const auto candidates = objectCandidates(scan, table, regions, taken, config);
-    auto clusters = clustersOf(candidates, z, clusterTolerance(candidates, config));
-    auto found = standing(std::move(clusters), table, regions, z, config);
-    joinVessels(found, z, config);
+    auto found = config.method == SegmentationMethod::euclidean
+                     ? distantObjects(scan, table, regions, taken, config)
+                     : convexObjects(scan, table, regions, taken, in_object, config);
     for (const auto& cluster : found) {
       auto& object = objects.emplace_back();
       for (const auto& c : cluster.points) {
         object.push_back(c.point);
-        taken[c.point] = true;
+        taken[c.point] = in_object[c.point] = true;
       }
     }
   }

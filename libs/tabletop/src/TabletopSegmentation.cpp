@@ -25,11 +25,22 @@ Segment remainderOf(const Measurement& z, const std::vector<TableSurface>& table
   return remainder;
 }
 
+/// Takes out of the tables what objects hold: the floors of pots lie in the plane of the table.
+void yieldToObjects(std::size_t points, std::vector<TableSurface>& tables,
+                    const std::vector<PointIndices>& objects) {
+  std::vector<bool> in_object(points, false);
+  for (const auto& object : objects) {
+    for (const auto i : object) in_object[i] = true;
+  }
+  for (auto& table : tables) std::erase_if(table.points, [&](std::uint32_t i) { return in_object[i]; });
+}
+
 }  // namespace
 
 std::vector<Segment> TabletopSegmentation::segment(const Measurement& z) const {
   auto tables = findTables(z, config_);
   auto objects = findStandingObjects(z, tables, config_);
+  yieldToObjects(z.world_points.size(), tables, objects);
   if (config_.attach_strays) attachStrays(z, tables, objects, config_);
 
   std::vector<Segment> segments;  // Eq. (9): z_bg, z_table,1 .. z_table,n, z_obj,1 .. z_obj,m

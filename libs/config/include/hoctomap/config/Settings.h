@@ -38,8 +38,6 @@ struct Limits {
   double max_skipped_share = 0.05;  ///< of the 3D scans
 };
 
-enum class SegmentationMethod { euclidean };  ///< how objects on a table are told apart
-
 /// Every setting of a run. The defaults are those of the built-in `tabletop.ini`.
 struct Settings {
   Settings();  ///< with the profiles of background, table and object
@@ -51,7 +49,6 @@ struct Settings {
   int checkpoint_scans = 10;        ///< scans between two commits to disk
   PosesConfig poses;
   SensorConfig sensor;
-  SegmentationMethod method = SegmentationMethod::euclidean;
   TabletopSegmentationConfig tabletop;
   BeamExistenceConfig existence;
   Limits limits;

@@ -7,8 +7,14 @@
 
 namespace hoctomap {
 
+/// How objects on a table are told apart: by their distance (the paper), or cut at concave creases and steps
+/// of the surface.
+enum class SegmentationMethod { euclidean, convex_patches };
+
 /// Parameters of the segmentation S' (Section IV-A); metres, degrees.
 struct TabletopSegmentationConfig {
+  SegmentationMethod method = SegmentationMethod::convex_patches;
+
   // Tables
   double table_height_min = 0.5;   ///< m, z of a table's centre in the world
   double table_height_max = 1.0;   ///< m
