@@ -165,7 +165,8 @@ class Run {
       error.turn = is_round ? 0.0 : std::min(error.turn, std::abs(std::numbers::pi - error.turn));
       if (!best || error.shift < best->shift) best = error;
     }
-    if (best) result_.motions.push_back(*best);
+    constexpr double kAnotherOne = 0.1;  // m: the motion of something else
+    if (best && best->shift < kAnotherOne) result_.motions.push_back(*best);
   }
 
   static std::optional<Eigen::Isometry3d> poseInBrackets(const std::string& text) {

@@ -45,6 +45,13 @@ bool BeamTraces::mayBeNearSurface(const Eigen::Vector3f& world_point, double dis
   return false;
 }
 
+Eigen::Vector3f BeamTraces::voxelCentre(const Eigen::Vector3f& world_point) const {
+  const double edge = tree_.getResolution();
+  const Eigen::Array3d p = (node_T_world_ * world_point).cast<double>().array();
+  const Eigen::Vector3d centre = (((p / edge).floor() + 0.5) * edge).matrix();
+  return node_T_world_.inverse() * centre.cast<float>();
+}
+
 double BeamTraces::voxelDiagonal() const {
   return std::numbers::sqrt3 * tree_.getResolution();
 }

@@ -17,6 +17,8 @@ class BeamTraces {
   /// Whether an occupied voxel may lie within `distance` metres; certainly true if one does.
   [[nodiscard]] bool mayBeNearSurface(const Eigen::Vector3f& world_point, double distance) const;
 
+  /// Centre of the voxel that the place lies in.
+  [[nodiscard]] Eigen::Vector3f voxelCentre(const Eigen::Vector3f& world_point) const;
   /// m; a voxel that a surface crosses is free in part.
   [[nodiscard]] double voxelDiagonal() const;
 

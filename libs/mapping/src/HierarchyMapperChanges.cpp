@@ -59,13 +59,18 @@ void HierarchyMapper::findReplaced(const Measurement& z, const std::vector<Label
                                    NodeEvidence& evidence) const {
   const auto nodes = associateByBox(clusters, evidence);
   for (std::size_t i = 0; i < clusters.size(); ++i) {
-    if (!nodes[i] || evidence.contradicts(*nodes[i])) continue;
-    const auto found = evidence.by_node.find(*nodes[i]);
-    if (found == evidence.by_node.end() || !found->second.informative) continue;
-    const PointCloud& points = clusters[i]->world_points;
-    const double range = (points.front().cast<double>() - z.origin()).norm();
-    if (isReplaced(hierarchy_, *nodes[i], points, range, config_.reidentification)) {
-      evidence.contradict(*nodes[i], profile(clusters[i]->label).existence.p_absent);
+    const LabelledPart& part = *clusters[i];
+    const double range = (part.world_points.front().cast<double>() - z.origin()).norm();
+    for (const NodeId id : hierarchy_.idsNear(worldBounds(part.box))) {
+      // Either the segment would join the node, or the node has none left: its successor took it before.
+      const bool has_other_segment = nodes[i] != id && std::count(nodes.begin(), nodes.end(), id) > 0;
+      const auto found = evidence.by_node.find(id);
+      if (has_other_segment || found == evidence.by_node.end()) continue;
+      if (!found->second.informative || found->second.contradicts()) continue;
+      if (hierarchy_.node(id).label() != part.label) continue;
+      if (isReplaced(hierarchy_, id, part.world_points, range, config_.reidentification)) {
+        evidence.contradict(id, profile(part.label).existence.p_absent);
+      }
     }
   }
 }

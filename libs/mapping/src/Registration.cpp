@@ -93,8 +93,8 @@ class Registrar {
     const Registration* best = &*std::max_element(candidates.begin(), candidates.end(), fitsWorse);
     // A round thing fits at any turn: the one it had is kept.
     for (const Registration& c : candidates) {
-      if (c.verdict == best->verdict && c.score >= best->score - config_.rival_score &&
-          c.rms <= 1.05 * best->rms && turn(c.motion) < turn(best->motion) - kOtherTurn) {
+      if (c.verdict == best->verdict && quality(c) >= quality(*best) - config_.rival_score &&
+          turn(c.motion) < turn(best->motion) - kOtherTurn) {
         best = &c;
       }
     }

@@ -15,8 +15,8 @@ constexpr std::size_t kMostPoints = 200;   // of the segment
 constexpr double kLeastSeenThrough = 0.3;  // share of the segment
 constexpr double kDrift = 0.01;            // m, by which views of one object may differ
 
-/// Share of the points that lie where beams have passed: off the node's surface, by more than the views may
-/// differ, and where the node's or the root's map is free.
+/// Share of the points that lie where beams have passed: where the node's map is free, off its surface by
+/// more than the views may differ, or in a free voxel of the root's map that none of that surface crosses.
 double shareSeenThrough(const MapHierarchy& hierarchy, NodeId id, const PointCloud& world_points) {
   const BeamTraces own(hierarchy, id);
   const BeamTraces root(hierarchy, kRootId);
@@ -26,8 +26,9 @@ double shareSeenThrough(const MapHierarchy& hierarchy, NodeId id, const PointClo
   for (std::size_t i = 0; i < world_points.size(); i += step) {
     const Eigen::Vector3f& p = world_points[i];
     ++asked;
-    const bool seen_through = (own.isFree(p) && !own.mayBeNearSurface(p, kDrift + own.voxelDiagonal())) ||
-                              (root.isFree(p) && !own.mayBeNearSurface(p, kDrift + root.voxelDiagonal()));
+    const bool seen_through =
+        (own.isFree(p) && !own.mayBeNearSurface(p, kDrift + own.voxelDiagonal())) ||
+        (root.isFree(p) && !own.mayBeNearSurface(root.voxelCentre(p), kDrift + 0.5 * root.voxelDiagonal()));
     through += seen_through ? 1U : 0U;
   }
   return static_cast<double>(through) / static_cast<double>(std::max<std::size_t>(1, asked));

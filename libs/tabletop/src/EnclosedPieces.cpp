@@ -12,6 +12,8 @@ constexpr double kMostShare = 0.3;   // of the points of the thing that a piece 
 constexpr double kEnclosed = 0.9;    // of the piece's points, within the thing's box
 constexpr double kOutliers = 0.01;   // of a thing's points, beyond each side of its box
 constexpr double kMargin = 0.005;    // m, around the box
+constexpr double kOffTable = 0.012;  // m, above the table, of a piece that does not stand on it
+constexpr double kHold = 0.015;      // m, between a piece and what holds it
 constexpr std::size_t kLeast = 100;  // points; fewer have no axes
 
 /// Upright box around all but a few points of a cluster.
@@ -47,6 +49,27 @@ class UprightBox {
     return static_cast<double>(inside) > kEnclosed * static_cast<double>(piece.size());
   }
 
+  /// Whether a piece is held up by this thing, from the side: it does not reach down to the table, nor lie on
+  /// top, and is in touch with it. A handle, that is: what is not held falls.
+  [[nodiscard]] bool holds(const Cluster& piece, const Cluster& thing) const {
+    const auto [lowest, highest] = std::minmax_element(
+        piece.begin(), piece.end(), [](const auto& a, const auto& b) { return a.height < b.height; });
+    if (lowest->height < kOffTable || lowest->height < low_.z()) return false;
+    if (highest->height > high_.z() || lowest->height > 0.5 * (low_.z() + high_.z())) return false;
+    const auto touches = [&](const Candidate& a, const Candidate& b) {
+      return (z_.world_points[a.point] - z_.world_points[b.point]).norm() < kHold;
+    };
+    // A few hundred points of either are enough: neighbours are nearer than that.
+    const std::size_t step = 1 + piece.size() / kLeast;
+    const std::size_t thing_step = 1 + thing.size() / (20 * kLeast);
+    for (std::size_t i = 0; i < piece.size(); i += step) {
+      for (std::size_t j = 0; j < thing.size(); j += thing_step) {
+        if (touches(piece[i], thing[j])) return true;
+      }
+    }
+    return false;
+  }
+
  private:
   [[nodiscard]] Eigen::Array3d inBox(const Candidate& c) const {
     const Eigen::Vector2d p = axes_.transpose() * z_.world_points[c.point].head<2>().cast<double>();
@@ -73,7 +96,7 @@ void joinEnclosedPieces(std::vector<Cluster>& clusters, const Measurement& z) {
     const double most = kMostShare * static_cast<double>(thing.size());
     for (auto& piece : clusters) {
       if (piece.empty() || &piece == &thing || static_cast<double>(piece.size()) > most) continue;
-      if (!box.encloses(piece)) continue;
+      if (!box.encloses(piece) && !box.holds(piece, thing)) continue;
       thing.insert(thing.end(), piece.begin(), piece.end());
       piece.clear();
     }

@@ -8,7 +8,8 @@
 namespace hoctomap {
 
 /// Joins to each cluster the much smaller ones that lie within its box (upright, turned to its principal axes
-/// in the plan): handles, and what shows behind a rim. Solid things do not share their space.
+/// in the plan): what shows behind a rim, for solid things do not share their space; and those that it holds
+/// up from the side: handles.
 void joinEnclosedPieces(std::vector<Cluster>& clusters, const Measurement& z);
 
 }  // namespace hoctomap
