@@ -20,6 +20,7 @@ struct CommandOptions {
   std::string output;
   std::string scene = "configs/scenes/occlusion.ini";
   std::string sequences;
+  int scans = 24;
   double resolution_mm = 2.0;
   bool quick = false;
 };
@@ -43,11 +44,6 @@ std::vector<Sequence> recordedSequences(const fs::path& folder) {
   return sequences;
 }
 
-/// A few seconds: images of 320 x 240 and coarse voxels.
-std::vector<std::string> quickOcclusion() {
-  return {"camera.width=320", "camera.height=240", "camera.fx=270"};
-}
-
 int viB(CommandOptions options) {
   if (options.quick) options.resolution_mm = 8.0;
   ViBOptions& experiment = options.experiment;
@@ -58,7 +54,7 @@ int viB(CommandOptions options) {
 
   say("simulating the scans");
   std::vector<Sequence> sequences{{"simulated", experiment.output / "simulated.rawlog"}};
-  simulateLog(options.scene, options.quick ? quickOcclusion() : std::vector<std::string>(),
+  simulateLog(options.scene, {"path.camera.scans_per_view=" + std::to_string(options.scans)},
               sequences.front().log);
   if (!options.sequences.empty()) {
     const auto recorded = recordedSequences(options.sequences);
@@ -79,7 +75,7 @@ int viB(CommandOptions options) {
 
 void addViBCommand(CLI::App& app, Action& action) {
   auto options = std::make_shared<CommandOptions>();
-  options->experiment.config = "configs/paper.ini";
+  options->experiment.config = "configs/tabletop.ini";
   CLI::App* command = app.add_subcommand(
       "vi-b", "Section VI-B: an object is taken away behind another one; ghosts in both kinds of map");
   command->add_option("-o,--output", options->output, "folder for logs, maps, CSV and pictures")
@@ -87,6 +83,10 @@ void addViBCommand(CLI::App& app, Action& action) {
       ->required();
   command->add_option("--scene", options->scene, "the scene to simulate")
       ->type_name("INI")
+      ->capture_default_str();
+  command->add_option("--scans", options->scans, "simulated scans, from one view")
+      ->type_name("N")
+      ->check(CLI::PositiveNumber)
       ->capture_default_str();
   command->add_option("--sequences", options->sequences, "also every DIR/occl_*/sequence.rawlog")
       ->type_name("DIR");
@@ -99,7 +99,7 @@ void addViBCommand(CLI::App& app, Action& action) {
       ->type_name("MM")
       ->check(CLI::PositiveNumber)
       ->capture_default_str();
-  command->add_flag("--quick", options->quick, "small scans and voxels of 8 mm: does everything work?");
+  command->add_flag("--quick", options->quick, "voxels of 8 mm, a few seconds: does everything work?");
   command->footer(
       "\nAt 2 mm the single map of the simulated scene takes 5.5 GB, and 12 GB while it is written.\n"
       "Run it from the root of the sources. Example:\n"

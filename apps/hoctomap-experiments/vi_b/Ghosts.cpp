@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "vi_b/Ghosts.h"
 
+#include <algorithm>
+#include <cmath>
+
 namespace hoctomap {
 
 namespace {
@@ -24,6 +27,7 @@ VacatedPlace::VacatedPlace(const RemovedNode& gone, const MapHierarchy& now,
   // Voxels of the background may be large; what is farther away than they are has no part in it.
   const Eigen::AlignedBox3d near = boundsOf(gone, 2.0 * now.root().map().resolution());
   for (const Measurement& z : scans_since) {
+    if (z.image) views_.push_back({toIsometry(z.world_T_sensor).inverse(), &*z.image});
     for (const Eigen::Vector3f& point : z.world_points) {
       if (near.contains(point.cast<double>())) measured_.insert(point.cast<double>());
     }
@@ -45,6 +49,25 @@ bool VacatedPlace::atTable(const Eigen::Vector3d& world_point) const {
     }
   }
   return false;
+}
+
+bool VacatedPlace::isHidden(const Eigen::Vector3d& world_point) const {
+  for (const View& view : views_) {
+    const PinholeCamera& camera = view.image->camera;
+    const Eigen::Vector3d p = view.sensor_T_world * world_point;
+    if (p.x() <= 0.0) continue;
+    const auto u = static_cast<int>(std::lround(camera.cx - camera.fx * p.y() / p.x()));
+    const auto v = static_cast<int>(std::lround(camera.cy - camera.fy * p.z() / p.x()));
+    if (u < 0 || v < 0 || u >= camera.width || v >= camera.height) continue;
+    if (static_cast<double>(view.image->at(u, v)) > p.x()) return false;
+  }
+  return true;
+}
+
+std::size_t VacatedPlace::countHidden(const PointCloud& world_points) const {
+  return static_cast<std::size_t>(std::count_if(world_points.begin(), world_points.end(), [&](const auto& p) {
+    return isHidden(p.template cast<double>());
+  }));
 }
 
 bool VacatedPlace::isGhost(const Eigen::Vector3d& world_center, double voxel) const {

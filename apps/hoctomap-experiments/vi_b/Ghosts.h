@@ -20,8 +20,9 @@ namespace hoctomap {
 class VacatedPlace {
  public:
   /// @param gone the object's node
-  /// @param now the hierarchy without it; must outlive the place
+  /// @param now the hierarchy without it
   /// @param scans_since measured after the object was taken away
+  /// Hierarchy and scans must outlive the place.
   VacatedPlace(const RemovedNode& gone, const MapHierarchy& now, const std::vector<Measurement>& scans_since);
 
   /// @param voxel edge of the voxel, m
@@ -30,7 +31,12 @@ class VacatedPlace {
   /// Centres of the ghosts in the world, over all nodes of a map but its tables.
   [[nodiscard]] PointCloud ghostsOf(const MapHierarchy& map) const;
 
+  /// How many of the points no depth image since then has seen through: something stands in front of them, so
+  /// that no number of scans from there takes them away. (The others need more scans.)
+  [[nodiscard]] std::size_t countHidden(const PointCloud& world_points) const;
+
  private:
+  [[nodiscard]] bool isHidden(const Eigen::Vector3d& world_point) const;
   [[nodiscard]] bool atTable(const Eigen::Vector3d& world_point) const;
 
   struct Table {
@@ -42,6 +48,11 @@ class VacatedPlace {
   CellSet object_;
   CellSet measured_;
   std::vector<Table> tables_;
+  struct View {
+    Eigen::Isometry3d sensor_T_world;
+    const DepthImage* image;
+  };
+  std::vector<View> views_;
 };
 
 }  // namespace hoctomap

@@ -28,8 +28,8 @@ std::string resultRow(const SequenceResult& r) {
   std::string row = "| " + r.name + " | ";
   if (hasRemoved(r)) {
     row += std::to_string(r.removed_scan) + " | " + std::to_string(r.node_voxels) + " | " +
-           std::to_string(r.ghosts_monolithic) + " (" + percent(r.ghosts_monolithic, r.node_voxels) + ") | " +
-           std::to_string(r.ghosts_hierarchy);
+           std::to_string(r.ghosts_monolithic) + " (" + percent(r.ghosts_monolithic, r.node_voxels) +
+           "), hidden " + std::to_string(r.hidden_monolithic) + " | " + std::to_string(r.ghosts_hierarchy);
   } else {
     row += "never | | |";
   }
@@ -69,7 +69,8 @@ std::string existenceTable(const std::vector<SequenceResult>& results) {
 
 std::string resultsCsv(const std::vector<SequenceResult>& results) {
   std::string csv =
-      "sequence,scans,node,removed_scan,node_voxels,ghosts_monolithic,ghosts_hierarchy,removed_objects,"
+      "sequence,scans,node,removed_scan,node_voxels,ghosts_monolithic,hidden_monolithic,ghosts_hierarchy,"
+      "removed_objects,"
       "objects_left,occupied_monolithic,occupied_hierarchy,bytes_monolithic,bytes_hierarchy,"
       "cpu_s_monolithic,cpu_s_hierarchy\n";
   for (const SequenceResult& r : results) {
@@ -77,9 +78,9 @@ std::string resultsCsv(const std::vector<SequenceResult>& results) {
     if (hasRemoved(r)) {
       csv += std::to_string(r.node.value) + "," + std::to_string(r.removed_scan) + "," +
              std::to_string(r.node_voxels) + "," + std::to_string(r.ghosts_monolithic) + "," +
-             std::to_string(r.ghosts_hierarchy);
+             std::to_string(r.hidden_monolithic) + "," + std::to_string(r.ghosts_hierarchy);
     } else {
-      csv += ",,,,";
+      csv += ",,,,,";
     }
     csv += "," + std::to_string(r.removed_objects) + "," + std::to_string(r.objects_left) + "," +
            std::to_string(r.monolithic.occupied) + "," + std::to_string(r.hierarchy.occupied) + "," +
@@ -111,7 +112,8 @@ std::string existenceCsv(const std::vector<SequenceResult>& results) {
 
 std::string resultsMarkdown(const std::vector<SequenceResult>& results) {
   std::string text =
-      "| sequence | node removed after scan | its voxels | ghosts, monolithic | ghosts, hierarchy "
+      "| sequence | node removed after scan | its voxels | ghosts, monolithic (of its voxels), hidden ones "
+      "of them | ghosts, hierarchy "
       "| objects removed, left | memory, monolithic and hierarchy | CPU, monolithic and hierarchy |\n"
       "|---|---|---|---|---|---|---|---|\n";
   for (const SequenceResult& r : results) text += resultRow(r);

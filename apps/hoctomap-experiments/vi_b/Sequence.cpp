@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "vi_b/Sequence.h"
 
+#include <algorithm>
+
 #include "measuring/Figures.h"
 #include "measuring/OwnProcess.h"
 #include "measuring/Scans.h"
@@ -33,9 +35,7 @@ BuiltMap figuresOf(const Manifest& manifest, double cpu_s) {
 }
 
 std::size_t countObjects(const Manifest& manifest) {
-  std::size_t objects = 0;
-  for (const NodeRecord& node : manifest.nodes) objects += node.label == labels::object ? 1U : 0U;
-  return objects;
+  return static_cast<std::size_t>(std::ranges::count(manifest.nodes, labels::object, &NodeRecord::label));
 }
 
 /// Ghosts and pictures.
@@ -49,6 +49,7 @@ void compare(const ViBOptions& options, const StoredMap& hierarchy, const MapHie
   const PointCloud in_monolithic = place.ghostsOf(monolithic);
   const PointCloud in_hierarchy = place.ghostsOf(hierarchy.hierarchy);
   result.ghosts_monolithic = in_monolithic.size();
+  result.hidden_monolithic = place.countHidden(in_monolithic);
   result.ghosts_hierarchy = in_hierarchy.size();
 
   const Settings settings = loadSettings(options.config, options.assignments);

@@ -38,6 +38,7 @@ struct SequenceResult {
   std::uint64_t removed_scan = 0;
   std::size_t node_voxels = 0;
   std::size_t ghosts_monolithic = 0;
+  std::size_t hidden_monolithic = 0;  ///< those of them that no scan since has seen through
   std::size_t ghosts_hierarchy = 0;
 };
 
