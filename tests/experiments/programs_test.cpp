@@ -63,7 +63,7 @@ TEST(Experiments, PerformanceMeasuresEveryRowAndEqualTrees) {
 
 TEST(Experiments, ViBLeavesGhostsInTheSingleMapOnly) {
   const TemporaryFolder folder;
-  const Outcome outcome = experiments({"vi-b", "--quick", "-o", folder / "out", "--scene",
+  const Outcome outcome = experiments({"vi-b", "--quick", "--scans", "12", "-o", folder / "out", "--scene",
                                        (sourceDir() / "configs/scenes/occlusion.ini").string(), "-c",
                                        (sourceDir() / "configs/tabletop.ini").string()});
   ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
