@@ -99,6 +99,7 @@ void addViBCommand(CLI::App& app, Action& action) {
       ->type_name("MM")
       ->check(CLI::PositiveNumber)
       ->capture_default_str();
+  command->add_flag("--continue", options->experiment.resume, "take the maps that are in DIR already");
   command->add_flag("--quick", options->quick, "voxels of 8 mm, a few seconds: does everything work?");
   command->footer(
       "\nAt 2 mm the single map of the simulated scene takes 5.5 GB, and 12 GB while it is written.\n"

@@ -14,8 +14,7 @@ namespace hoctomap {
 
 namespace {
 
-constexpr double kBeside = 0.15;     // m; objects that near belong in the picture
-constexpr double kMargin = 0.05;     // m
+constexpr double kBeside = 0.12;     // m; objects that near belong in the picture
 constexpr double kElevation = 25.0;  // degrees
 
 Eigen::AlignedBox3d padded(const Eigen::AlignedBox3d& box, double pad) {
@@ -70,14 +69,15 @@ MapHierarchy cutMap(const MapHierarchy& map, const PointCloud& ghosts, const Eig
 PictureFrame frameAround(const RemovedNode& gone, const MapHierarchy& now, const Eigen::Vector3d& sensor) {
   const Eigen::AlignedBox3d object =
       worldBounds({toIsometry(gone.world_T_node), gone.node.map().occupiedBox()});
+  const Eigen::AlignedBox3d beside = padded(object, kBeside);
   PictureFrame frame;
-  frame.box = object;
+  frame.box = beside;
   for (const NodeId id : now.ids()) {
     if (now.node(id).label() != labels::object) continue;
     const Eigen::AlignedBox3d other = worldBounds(now.box(id));
-    if (!other.isEmpty() && padded(object, kBeside).intersects(other)) frame.box.extend(other);
+    if (other.isEmpty() || !beside.intersects(other)) continue;
+    frame.box.max().z() = std::max(frame.box.max().z(), other.max().z());
   }
-  frame.box = padded(frame.box, kMargin);
   const Eigen::Vector3d behind = object.center() - sensor;
   // Somewhat aside, so that the object in front is not all hidden.
   frame.azimuth = std::atan2(behind.y(), behind.x()) * 180.0 / std::numbers::pi + 30.0;

@@ -34,8 +34,7 @@ std::string resultRow(const SequenceResult& r) {
     row += "never | | |";
   }
   return row + " | " + std::to_string(r.removed_objects) + ", " + std::to_string(r.objects_left) + " | " +
-         megabytes(r.monolithic.bytes) + ", " + megabytes(r.hierarchy.bytes) + " | " +
-         numberText(r.monolithic.cpu_s, 3) + " s, " + numberText(r.hierarchy.cpu_s, 3) + " s |\n";
+         megabytes(r.monolithic.bytes) + ", " + megabytes(r.hierarchy.bytes) + " |\n";
 }
 
 /// The probability after a scan, as a cell: bold where it takes the node out of the map.
@@ -71,8 +70,7 @@ std::string resultsCsv(const std::vector<SequenceResult>& results) {
   std::string csv =
       "sequence,scans,node,removed_scan,node_voxels,ghosts_monolithic,hidden_monolithic,ghosts_hierarchy,"
       "removed_objects,"
-      "objects_left,occupied_monolithic,occupied_hierarchy,bytes_monolithic,bytes_hierarchy,"
-      "cpu_s_monolithic,cpu_s_hierarchy\n";
+      "objects_left,occupied_monolithic,occupied_hierarchy,bytes_monolithic,bytes_hierarchy\n";
   for (const SequenceResult& r : results) {
     csv += csvField(r.name) + "," + std::to_string(r.scans) + ",";
     if (hasRemoved(r)) {
@@ -85,8 +83,6 @@ std::string resultsCsv(const std::vector<SequenceResult>& results) {
     csv += "," + std::to_string(r.removed_objects) + "," + std::to_string(r.objects_left) + "," +
            std::to_string(r.monolithic.occupied) + "," + std::to_string(r.hierarchy.occupied) + "," +
            std::to_string(r.monolithic.bytes) + "," + std::to_string(r.hierarchy.bytes);
-    appendNumber(csv, r.monolithic.cpu_s);
-    appendNumber(csv, r.hierarchy.cpu_s);
     csv += "\n";
   }
   return csv;
@@ -112,10 +108,9 @@ std::string existenceCsv(const std::vector<SequenceResult>& results) {
 
 std::string resultsMarkdown(const std::vector<SequenceResult>& results) {
   std::string text =
-      "| sequence | node removed after scan | its voxels | ghosts, monolithic (of its voxels), hidden ones "
-      "of them | ghosts, hierarchy "
-      "| objects removed, left | memory, monolithic and hierarchy | CPU, monolithic and hierarchy |\n"
-      "|---|---|---|---|---|---|---|---|\n";
+      "| sequence | node removed after scan | its voxels | ghosts, monolithic | ghosts, hierarchy "
+      "| objects removed, left | memory, monolithic and hierarchy |\n"
+      "|---|---|---|---|---|---|---|\n";
   for (const SequenceResult& r : results) text += resultRow(r);
   return text + "\nExistence of the removed object's node after every scan (bold: removed by it):\n\n" +
          existenceTable(results);

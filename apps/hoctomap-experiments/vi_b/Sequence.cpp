@@ -12,21 +12,19 @@ namespace hoctomap {
 
 namespace {
 
-/// Builds a map and returns the CPU seconds.
-double build(const ViBOptions& options, const std::filesystem::path& log,
-             const std::filesystem::path& directory, const std::vector<std::string>& more) {
+void build(const ViBOptions& options, const std::filesystem::path& log,
+           const std::filesystem::path& directory, const std::vector<std::string>& more) {
   std::vector<std::string> arguments{"build",      "-q", "--overwrite",     "-c", options.config, "-i",
                                      log.string(), "-o", directory.string()};
   for (const std::string& assignment : options.assignments) {
     arguments.insert(arguments.end(), {"--set", assignment});
   }
   arguments.insert(arguments.end(), more.begin(), more.end());
-  return runApart(findHoctomap(), arguments).number("cpu_s");
+  static_cast<void>(runApart(findHoctomap(), arguments));
 }
 
-BuiltMap figuresOf(const Manifest& manifest, double cpu_s) {
+BuiltMap figuresOf(const Manifest& manifest) {
   BuiltMap built;
-  built.cpu_s = cpu_s;
   for (const NodeRecord& node : manifest.nodes) {
     built.occupied += node.voxels.occupied;
     built.bytes += node.memory_bytes;
@@ -72,21 +70,20 @@ SequenceResult runSequence(const ViBOptions& options, const std::string& name,
 
   say(name + ": the hierarchy");
   const auto directory = folder / "hierarchy";
-  const double hierarchy_cpu =
-      build(options, log, directory, {"--set", "label.object.resolution=" + resolution});
+  build(options, log, directory, {"--set", "label.object.resolution=" + resolution});
   const StoredMap hierarchy = readMap(directory, {.at_scan = {}, .removed = true});
-  result.hierarchy = figuresOf(hierarchy.manifest, hierarchy_cpu);
+  result.hierarchy = figuresOf(hierarchy.manifest);
   result.scans = hierarchy.manifest.scans;
   result.removed_objects = countRemovedObjects(directory, hierarchy.manifest);
   result.objects_left = countObjects(hierarchy.manifest);
 
   say(name + ": the monolithic map");
   // One commit at the end: each writes the whole map.
-  const double monolithic_cpu = build(options, log, folder / "monolithic",
-                                      {"--monolithic", "--set", "label.background.resolution=" + resolution,
-                                       "--set", "mapping.checkpoint_scans=1000000"});
+  build(options, log, folder / "monolithic",
+        {"--monolithic", "--set", "label.background.resolution=" + resolution, "--set",
+         "mapping.checkpoint_scans=1000000"});
   const StoredMap monolithic = readMap(folder / "monolithic");
-  result.monolithic = figuresOf(monolithic.manifest, monolithic_cpu);
+  result.monolithic = figuresOf(monolithic.manifest);
 
   const RemovedNode* gone = largestRemovedObject(directory, hierarchy);
   if (gone == nullptr) return result;

@@ -15,13 +15,13 @@ struct ViBOptions {
   std::string config;                    ///< INI, for both maps
   std::vector<std::string> assignments;  ///< `section.key=value`, for both maps
   double resolution = 0.002;             ///< m, of the objects and of the single map
+  bool resume = false;                   ///< take maps that are there already
 };
 
 /// A map as built.
 struct BuiltMap {
   std::uint64_t occupied = 0;  ///< voxels, over all nodes
   std::uint64_t bytes = 0;     ///< OctoMap's memoryUsage(), over all nodes
-  double cpu_s = 0.0;          ///< of the whole program
 };
 
 /// The experiment on one log: an object, one in front of it, the first one taken away.
