@@ -14,7 +14,7 @@ namespace hoctomap {
 
 namespace {
 
-constexpr double kBeside = 0.12;     // m; objects that near belong in the picture
+constexpr double kBeside = 0.18;     // m; objects that near belong in the picture
 constexpr double kElevation = 25.0;  // degrees
 
 Eigen::AlignedBox3d padded(const Eigen::AlignedBox3d& box, double pad) {

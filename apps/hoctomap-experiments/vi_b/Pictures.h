@@ -17,7 +17,7 @@ struct PictureFrame {
   double azimuth = 0.0;     ///< degrees, of the eye seen from the box
 };
 
-/// A hand's breadth around the removed object, and as high as the objects of `now` beside it.
+/// What is less than 0.18 m from the removed object, and as high as the objects of `now` beside it.
 [[nodiscard]] PictureFrame frameAround(const RemovedNode& gone, const MapHierarchy& now,
                                        const Eigen::Vector3d& sensor);
 
