@@ -45,8 +45,12 @@ std::string cell(const NodeState& state) {
 }
 
 std::string existenceTable(const std::vector<SequenceResult>& results) {
-  std::size_t scans = 0;
-  for (const SequenceResult& r : results) scans = std::max(scans, r.scans);
+  std::size_t scans = 0;  // up to the last one that says something
+  for (const SequenceResult& r : results) {
+    for (const NodeState& state : r.history) {
+      if (state.existence) scans = std::max<std::size_t>(scans, state.scan + 1);
+    }
+  }
   std::string head = "| after scan |";
   std::string rule = "|---|";
   for (std::size_t i = 0; i < scans; ++i) {
