@@ -12,6 +12,7 @@ using Action = std::function<int()>;
 // One a subcommand, each in command_<name>.cpp: adds its options to `app`, and sets `action` when it is
 // chosen.
 void addViACommand(CLI::App& app, Action& action);
+void addViBCommand(CLI::App& app, Action& action);
 void addPerformanceCommand(CLI::App& app, Action& action);
 void addChangesCommand(CLI::App& app, Action& action);
 void addSegmentationCommand(CLI::App& app, Action& action);

@@ -24,6 +24,7 @@ int main(int argc, char** argv) {
   app.footer("\nHelp of a command: hoctomap-experiments COMMAND --help\n");
   hoctomap::Action action;
   hoctomap::addViACommand(app, action);
+  hoctomap::addViBCommand(app, action);
   hoctomap::addPerformanceCommand(app, action);
   hoctomap::addChangesCommand(app, action);
   hoctomap::addSegmentationCommand(app, action);

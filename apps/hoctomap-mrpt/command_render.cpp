@@ -38,8 +38,7 @@ void addRenderCommand(CLI::App& app, VerbRun& run) {
   verb->add_option("map", *map, "map directory")->required();
   verb->add_option("-o,--output", *out, "PNG to write")->required();
   verb->add_option("--size", *size, "pixels, WIDTHxHEIGHT")->default_str("1600x1000");
-  verb->add_option("--view", options->view, "where to look from")
-      ->check(CLI::IsMember(renderViews()))
+  verb->add_option("--view", options->view, "where to look from: a name, or AZIMUTH,ELEVATION")
       ->capture_default_str();
   verb->add_flag("--labels", options->labels, "also boxes and labels of the nodes");
   verb->add_option("--at-scan", *at_scan, "the map as it was after this scan");

@@ -38,7 +38,9 @@ void addRenderCommand(CLI::App& app, Action& action) {
   command->add_option("map", options->map, "map directory")->type_name("DIR")->required();
   command->add_option("-o,--output", options->output, "the picture")->type_name("PNG")->required();
   command->add_option("--size", options->size, "in pixels")->type_name("WxH");
-  command->add_option("--view", options->view, "oblique (default), front, back, left, right or top")
+  command
+      ->add_option("--view", options->view,
+                   "oblique (default), front, back, left, right, top, or AZIMUTH,ELEVATION in degrees")
       ->type_name("VIEW");
   addAtScan(*command, options->at_scan);
   command->callback([options, &action] { action = [options] { return render(*options); }; });

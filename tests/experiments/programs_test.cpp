@@ -61,8 +61,40 @@ TEST(Experiments, PerformanceMeasuresEveryRowAndEqualTrees) {
   EXPECT_GT(parseCsv(readFile(folder / "out/measurements.csv")).size(), 100U);
 }
 
+TEST(Experiments, ViBLeavesGhostsInTheSingleMapOnly) {
+  const TemporaryFolder folder;
+  const Outcome outcome = experiments({"vi-b", "--quick", "--scans", "12", "-o", folder / "out", "--scene",
+                                       (sourceDir() / "configs/scenes/occlusion.ini").string(), "-c",
+                                       (sourceDir() / "configs/tabletop.ini").string()});
+  ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
+  const auto rows = parseCsv(readFile(folder / "out/vi_b.csv"));
+  ASSERT_EQ(rows.size(), 1U);
+  const auto& row = rows.front();
+  EXPECT_EQ(row.at("removed_objects"), "1");
+  EXPECT_EQ(row.at("objects_left"), "1");  // the tube
+  EXPECT_EQ(row.at("ghosts_hierarchy"), "0");
+  EXPECT_GT(std::stoi(row.at("ghosts_monolithic")), std::stoi(row.at("node_voxels")) / 10);
+  EXPECT_GT(std::stoi(row.at("hidden_monolithic")), 0);
+  // Out of the map exactly from the scan on that takes its probability below 0.5.
+  const auto states = parseCsv(readFile(folder / "out/vi_b_existence.csv"));
+  ASSERT_EQ(states.size(), std::stoul(row.at("scans")));
+  const auto removed = std::stoul(row.at("removed_scan"));
+  EXPECT_GE(removed, 8U);  // when the power supply goes
+  for (std::size_t scan = 0; scan < states.size(); ++scan) {
+    EXPECT_EQ(states[scan].at("in_map"), scan < removed ? "1" : "0") << scan;
+    if (scan <= removed) {
+      EXPECT_EQ(std::stod(states[scan].at("existence")) < 0.5, scan == removed) << scan;
+    }
+  }
+  for (const std::string picture : {"monolithic", "hierarchy"}) {
+    EXPECT_EQ(readFile(folder / ("out/simulated/" + picture + ".png")).substr(1, 3), "PNG");
+  }
+  EXPECT_NE(outcome.out.find("| simulated |"), std::string::npos) << outcome.out;
+}
+
 TEST(Experiments, WrongUseIsExit2) {
   EXPECT_EQ(experiments({"vi-a"}).exit_code, 2);
+  EXPECT_EQ(experiments({"vi-b"}).exit_code, 2);
   EXPECT_EQ(experiments({"measure", "hole"}).exit_code, 2);
   EXPECT_EQ(experiments({"measure", "whole", "--variant", "ours", "--log", "/nowhere"}).exit_code, 3);
 }

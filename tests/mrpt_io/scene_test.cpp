@@ -120,6 +120,10 @@ TEST_F(SceneTest, PictureShowsAllThreeColours) {
 TEST_F(SceneTest, OptionsAreChecked) {
   EXPECT_THROW(renderMap(smallMap(), {0, 300, "oblique", false}, folder_ / "x.png"), ConfigError);
   EXPECT_THROW(renderMap(smallMap(), {400, 300, "sideways", false}, folder_ / "x.png"), ConfigError);
+  for (const std::string view : {"150", "150,", "150;25", "150,25m", "150,95", "nan,25"}) {
+    EXPECT_THROW(renderMap(smallMap(), {400, 300, view, false}, folder_ / "x.png"), ConfigError) << view;
+  }
+  EXPECT_NO_THROW(renderMap(smallMap(), {400, 300, "-150,25.5", false}, folder_ / "x.png"));
 }
 
 }  // namespace

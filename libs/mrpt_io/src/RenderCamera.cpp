@@ -6,6 +6,9 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <locale>
+#include <optional>
+#include <sstream>
 
 #include "hoctomap/geometry/Errors.h"
 #include "hoctomap/mrpt_io/RenderMap.h"
@@ -72,6 +75,19 @@ struct View {
 constexpr std::array kViews{View{"front", -90.0, 12.0}, View{"back", 90.0, 12.0}, View{"left", 180.0, 12.0},
                             View{"right", 0.0, 12.0}, View{"top", -90.0, 89.0}};
 
+/// `AZIMUTH,ELEVATION` in degrees.
+std::optional<View> parseDirection(const std::string& view) {
+  View direction{"", 0.0, 0.0};
+  char comma = 0;
+  std::istringstream in(view);
+  in.imbue(std::locale::classic());
+  if (!(in >> direction.azimuth >> comma >> direction.elevation) || comma != ',' || in.peek() != EOF) {
+    return std::nullopt;
+  }
+  const bool usable = std::abs(direction.azimuth) <= 360.0 && std::abs(direction.elevation) <= 89.0;
+  return usable ? std::optional(direction) : std::nullopt;
+}
+
 }  // namespace
 
 const std::vector<std::string>& renderViews() {
@@ -89,10 +105,13 @@ RenderCamera cameraFor(const MapHierarchy& hierarchy, const std::string& view, d
   for (const Eigen::Vector3d& point : points) bounds.extend(point);
   RenderCamera camera;
   camera.target = bounds.center();
+  std::optional<View> given = parseDirection(view);
   for (const View& fixed : kViews) {
-    if (view != fixed.name) continue;
-    camera.azimuth = fixed.azimuth;
-    camera.elevation = fixed.elevation;
+    if (view == fixed.name) given = fixed;
+  }
+  if (given) {
+    camera.azimuth = given->azimuth;
+    camera.elevation = given->elevation;
     camera.distance = distanceFor(camera, points, aspect);
     return camera;
   }

@@ -16,7 +16,8 @@ struct RenderOptions {
   bool labels = false;  ///< also the boxes of the nodes and their labels
 };
 
-/// What `RenderOptions::view` may be. `oblique`: from above, from the side where least stands in the way.
+/// What `RenderOptions::view` may be, besides `AZIMUTH,ELEVATION` (degrees, of the eye as seen from what is
+/// looked at). `oblique`: from above, from the side where least stands in the way.
 [[nodiscard]] const std::vector<std::string>& renderViews();
 
 /// Writes a PNG of a map, nodes coloured by label as in Fig. 3 of the paper; tables and objects fill the
