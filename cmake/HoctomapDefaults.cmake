@@ -16,7 +16,7 @@ if(HOCTOMAP_CCACHE AND NOT CMAKE_CXX_COMPILER_LAUNCHER)
 endif()
 
 # Lines in stack traces and profiles; what -g writes beyond takes a quarter of the compile time.
-string(REPLACE "-g" "-g1" CMAKE_CXX_FLAGS_RELWITHDEBINFO "${CMAKE_CXX_FLAGS_RELWITHDEBINFO}")
+string(REGEX REPLACE "(^| )-g( |$)" "\\1-g1\\2" CMAKE_CXX_FLAGS_RELWITHDEBINFO "${CMAKE_CXX_FLAGS_RELWITHDEBINFO}")
 
 add_library(hoctomap_flags INTERFACE)
 target_compile_options(hoctomap_flags INTERFACE
