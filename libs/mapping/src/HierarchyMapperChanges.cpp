@@ -62,10 +62,12 @@ void HierarchyMapper::findReplaced(const Measurement& z, const std::vector<Label
     const LabelledPart& part = *clusters[i];
     const double range = (part.world_points.front().cast<double>() - z.origin()).norm();
     for (const NodeId id : hierarchy_.idsNear(worldBounds(part.box))) {
-      // Either the segment would join the node, or the node has none left: its successor took it before.
-      const bool has_other_segment = nodes[i] != id && std::count(nodes.begin(), nodes.end(), id) > 0;
+      // Either the segment would join the node, or one that was made after the node had its last: its
+      // successor.
+      const bool is_candidate = nodes[i] && (*nodes[i] == id || hierarchy_.node(*nodes[i]).first_scan >
+                                                                    hierarchy_.node(id).last_scan);
       const auto found = evidence.by_node.find(id);
-      if (has_other_segment || found == evidence.by_node.end()) continue;
+      if (!is_candidate || found == evidence.by_node.end()) continue;
       if (!found->second.informative || found->second.contradicts()) continue;
       if (hierarchy_.node(id).label() != part.label) continue;
       if (isReplaced(hierarchy_, id, part.world_points, range, config_.reidentification)) {

@@ -34,6 +34,21 @@ double shareSeenThrough(const MapHierarchy& hierarchy, NodeId id, const PointClo
   return static_cast<double>(through) / static_cast<double>(std::max<std::size_t>(1, asked));
 }
 
+/// Whether the segment shows much of the node's surface: then the node is a piece of what the segment shows.
+bool isPieceOf(const PointCloud& world_points, const PointCloud& surface) {
+  constexpr float kSpacing = 0.004F;    // m
+  constexpr double kLeastCommon = 0.5;  // share of the surface
+  const SurfacePoints segment(world_points, kSpacing);
+  const std::size_t step = std::max<std::size_t>(1, surface.size() / kMostPoints);
+  std::size_t asked = 0;
+  std::size_t common = 0;
+  for (std::size_t i = 0; i < surface.size(); i += step) {
+    ++asked;
+    common += segment.nearest(surface[i], static_cast<float>(kDrift)) ? 1U : 0U;
+  }
+  return static_cast<double>(common) > kLeastCommon * static_cast<double>(asked);
+}
+
 }  // namespace
 
 bool isReplaced(const MapHierarchy& hierarchy, NodeId id, const PointCloud& world_points, double range,
@@ -41,8 +56,10 @@ bool isReplaced(const MapHierarchy& hierarchy, NodeId id, const PointCloud& worl
   const MapNode& node = hierarchy.node(id);
   if (!config.enabled || node.map().occupiedVoxels().empty()) return false;
   if (shareSeenThrough(hierarchy, id, world_points) <= kLeastSeenThrough) return false;
+  const PointCloud surface = worldSurface(hierarchy, id);
+  if (isPieceOf(world_points, surface)) return false;
   const auto registration = registrationAt(config, node.map().resolution(), range);
-  return registerPoints(worldSurface(hierarchy, id), world_points, registration).verdict == Match::different;
+  return registerPoints(surface, world_points, registration).verdict == Match::different;
 }
 
 }  // namespace hoctomap
