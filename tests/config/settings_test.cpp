@@ -52,6 +52,7 @@ TEST(Settings, TabletopIsWhatTheDesignRecommends) {
   for (const LabelProfile* profile : {&table, &object}) {
     EXPECT_EQ(profile->frame, FrameChoice::pca);
     EXPECT_EQ(profile->carve, Carve::own);
+    EXPECT_EQ(profile->grazing, Grazing::spare);
     EXPECT_TRUE(profile->existence_enabled);
     EXPECT_EQ(profile->occupancy.prob_hit, 0.7);
     EXPECT_EQ(profile->occupancy.clamping_min, 0.1192);
@@ -68,7 +69,10 @@ TEST(Settings, PaperFollowsThePaper) {
   EXPECT_EQ(settings.tabletop.table_height_min, 0.5);
   EXPECT_EQ(settings.tabletop.table_height_max, 1.0);
   EXPECT_EQ(settings.association_margin, 0.0);
-  for (const auto& [label, profile] : settings.labels) EXPECT_EQ(profile.carve, Carve::own) << label.name;
+  for (const auto& [label, profile] : settings.labels) {
+    EXPECT_EQ(profile.carve, Carve::own) << label.name;
+    EXPECT_EQ(profile.grazing, Grazing::clear) << label.name;
+  }
   EXPECT_EQ(settings.labels.at(labels::object).resolution, 0.002);
   EXPECT_EQ(settings.labels.at(labels::background).frame, FrameChoice::world);
 }

@@ -206,6 +206,46 @@ TEST(HierarchyMapper, CarvingByTheWholeScanClearsWhatOwnBeamsDoNot) {
   }
 }
 
+/// The top of a box, seen again and again from the same flat angle. Beams end in a third of its voxels a
+/// scan.
+TEST(HierarchyMapper, BeamsThatGrazeASurfaceDoNotThinItOut) {
+  for (const Grazing grazing : {Grazing::clear, Grazing::spare}) {
+    Mapper m;
+    LabelProfiles fine = profiles();
+    fine[labels::object].resolution = 0.002;
+    fine[labels::object].grazing = grazing;
+    HierarchyMapper mapper(MappingConfig{}, fine, m.strategies());
+    test::Rng rng(7);
+    PointCloud all;
+    for (std::uint64_t k = 0; k < 8; ++k) {
+      PointCloud top;
+      for (int i = 0; i < 400; ++i) {
+        const Eigen::Vector3d at = 0.1 * test::uniformVector(rng, 0.0, 1.0);
+        top.push_back(Eigen::Vector3d(at.x(), at.y(), 1.0 + 0.02 * at.z()).cast<float>());  // 2 mm of noise
+      }
+      all.insert(all.end(), top.begin(), top.end());
+      const Scan scan(k, {{Structure::cluster, top}}, {-1.0, 0.05, 1.2});  // 11 degrees
+      *m.current = &scan;
+      mapper.integrate(scan.z);
+    }
+    const NodeId box{1};
+    const Eigen::Isometry3d node_T_world = toIsometry(mapper.hierarchy().world_T_node(box)).inverse();
+    const auto& tree = mapper.hierarchy().node(box).map().tree();
+    const auto is_occupied = [&](const Eigen::Vector3f& p) {
+      const Eigen::Vector3f at = (node_T_world * p.cast<double>()).cast<float>();
+      const auto* voxel = tree.search(at.x(), at.y(), at.z());
+      return voxel != nullptr && tree.isNodeOccupied(voxel);
+    };
+    const double kept = static_cast<double>(std::count_if(all.begin(), all.end(), is_occupied)) /
+                        static_cast<double>(all.size());
+    if (grazing == Grazing::spare) {
+      EXPECT_GT(kept, 0.95);
+    } else {
+      EXPECT_LT(kept, 0.75);
+    }
+  }
+}
+
 TEST(HierarchyMapper, TheNumberOfThreadsChangesNothing) {
   std::vector<std::string> results;
   for (const std::size_t threads : {1U, 4U}) {

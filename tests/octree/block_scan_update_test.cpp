@@ -39,7 +39,7 @@ TEST(BlockScanUpdate, UnboundedScansGiveTheSameBytes) {
     SceneMaker scene(static_cast<std::uint64_t>(seed));
     Pair pair(scene.resolution(), seed % 4 == 0 ? Instructions::baseline : Instructions::best);
     for (int scan = 0; scan < 4; ++scan) {
-      ASSERT_EQ(pair.update(scene.scan(150, scan % 2 == 0 ? 0 : 50)), "")
+      ASSERT_EQ(pair.update(scene.scan(150, scan % 2 == 0 ? 0 : 50, scan == 3 ? 30 : 0)), "")
           << "seed " << seed << " scan " << scan;
     }
   }
@@ -51,7 +51,7 @@ TEST(BlockScanUpdate, BoundedScansGiveTheSameBytes) {
     SceneMaker scene(static_cast<std::uint64_t>(seed));
     Pair pair(scene.resolution(), seed % 4 == 0 ? Instructions::baseline : Instructions::best);
     for (int scan = 0; scan < 4; ++scan) {
-      Beams beams = scene.scan(60, 60);
+      Beams beams = scene.scan(60, 60, scan == 3 ? 20 : 0);
       beams.bounds = scene.box();
       ASSERT_EQ(pair.update(beams), "") << "seed " << seed << " scan " << scan;
     }

@@ -84,16 +84,19 @@ Eigen::Vector3f SceneMaker::endpoint(const Eigen::Vector3f& origin) {
   return p;
 }
 
-Beams SceneMaker::scan(std::size_t hits, std::size_t passing) {
+Beams SceneMaker::scan(std::size_t hits, std::size_t passing, std::size_t endpoints) {
   hits_.clear();
   passing_.clear();
+  endpoints_.clear();
   Beams beams;
   beams.origin = point();
   if (pick(20) == 0) beams.origin[pick(3)] = asFloat(40000.0 * resolution_);  // beyond the key range
   for (std::size_t i = 0; i < hits; ++i) hits_.push_back(endpoint(beams.origin));
   for (std::size_t i = 0; i < passing; ++i) passing_.push_back(endpoint(beams.origin));
+  for (std::size_t i = 0; i < endpoints; ++i) endpoints_.push_back(endpoint(beams.origin));
   beams.hits = hits_;
   beams.passing = passing_;
+  beams.endpoints = endpoints_;
   beams.max_range = maxRange();
   return beams;
 }

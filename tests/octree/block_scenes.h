@@ -19,8 +19,8 @@ class SceneMaker {
  public:
   explicit SceneMaker(std::uint64_t seed);
 
-  /// One scan. `hits` and `passing` live as long as the next call.
-  Beams scan(std::size_t hits, std::size_t passing);
+  /// One scan. Its points live until the next call.
+  Beams scan(std::size_t hits, std::size_t passing, std::size_t endpoints = 0);
 
   /// A box that the beams may cross, miss, graze, start in or end in; may be inverted or beyond the key
   /// range.
@@ -42,6 +42,7 @@ class SceneMaker {
   double extent_;           ///< in voxels
   PointCloud hits_;
   PointCloud passing_;
+  PointCloud endpoints_;
 };
 
 /// The bytes of the tree's `.ot` file.

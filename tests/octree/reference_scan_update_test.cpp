@@ -62,10 +62,12 @@ TEST(ReferenceScanUpdate, BoundedEqualsTheDefinitionVoxelByVoxel) {
     test::Rng rng(100 + seed);
     const PointCloud hits = randomEndpoints(rng, 40, 0.6);
     const PointCloud passing = randomEndpoints(rng, 40, 0.9);
+    const PointCloud endpoints = randomEndpoints(rng, 20, 0.6);
     Beams beams;
     beams.origin = Eigen::Vector3f(1.0F, 0.2F, 0.3F);
     beams.hits = hits;
     beams.passing = passing;
+    beams.endpoints = endpoints;
     beams.bounds =
         Eigen::AlignedBox3d(Eigen::Vector3d(-0.33, -0.41, -0.27), Eigen::Vector3d(0.38, 0.29, 0.44));
     octomap::OcTree tree(0.05);
@@ -94,9 +96,11 @@ TEST(ReferenceScanUpdate, BoundedEqualsTheDefinitionVoxelByVoxel) {
         }
       }
     }
-    for (const auto& p : hits) {
-      const auto key = tree.coordToKey(p.x(), p.y(), p.z());
-      if (inside(key)) expected[key] = true;
+    for (const PointCloud* cloud : {&hits, &endpoints}) {
+      for (const auto& p : *cloud) {
+        const auto key = tree.coordToKey(p.x(), p.y(), p.z());
+        if (inside(key)) expected[key] = true;
+      }
     }
     tree.expand();
     EXPECT_EQ(tree.getNumLeafNodes(), expected.size());

@@ -203,6 +203,9 @@ constexpr auto label_keys = std::to_array<Key<LabelProfile>>({
      "Beams that clear the node's free space: of its own segments (the paper), or all of the scan that cross "
      "its box",
      &at<&P::carve>},
+    {"label.NAME", "grazing", "", any,
+     "Whether a beam that grazes the surface it ends on clears voxels of it (stock OctoMap), or spares them",
+     &at<&P::grazing>},
     {"label.NAME", "existence", "", any,
      "Whether nodes of this label are removed when they are gone (Eq. 8); the root never is",
      &at<&P::existence_enabled>},
@@ -244,11 +247,13 @@ std::span<const Order<LabelProfile>> labelOrders() {
 
 LabelProfile defaultProfile(const Label& label) {
   LabelProfile profile;
+  profile.grazing = Grazing::spare;
   if (label == labels::background) {
     profile.resolution = 0.05;
     profile.frame = FrameChoice::world;
     // The space above the tables is cleared by beams that end on them: navigation needs it.
     profile.carve = Carve::scan;
+    profile.grazing = Grazing::clear;
     profile.existence_enabled = false;
   } else if (label == labels::table) {
     profile.resolution = 0.01;

@@ -14,7 +14,7 @@ namespace hoctomap::keys {
 template <class Owner>
 using Access = std::variant<double& (*)(Owner&), int& (*)(Owner&), std::int64_t& (*)(Owner&),
                             std::uint64_t& (*)(Owner&), bool& (*)(Owner&), SegmentationMethod& (*)(Owner&),
-                            FrameChoice& (*)(Owner&), Carve& (*)(Owner&)>;
+                            FrameChoice& (*)(Owner&), Carve& (*)(Owner&), Grazing& (*)(Owner&)>;
 
 /// One row of the table of keys, the only place where a key is spelled.
 template <class Owner>

@@ -3,7 +3,9 @@
 
 #include <cstddef>
 #include <string>
+#include <utility>
 
+#include "GrazingBeams.h"
 #include "hoctomap/octree/UpdateMemory.h"
 
 namespace hoctomap {
@@ -63,18 +65,27 @@ void requireMemory(const NodeUpdate& update, const Beams& beams) {
 }  // namespace
 
 ScanUpdateReport updateNodeMap(const NodeUpdate& update, const Measurement& z, const ScanUpdate& engine) {
-  const NodePoints points = toNodeFrame(update, z);
+  NodeMap& map = update.node->map();
+  NodePoints points = toNodeFrame(update, z);
   Beams beams;
   beams.origin = (toIsometry(update.world_T_node).inverse() * z.origin()).cast<float>();
-  beams.hits = points.own;
-  beams.passing = points.others;
   beams.max_range = update.max_range;
   if (update.bounded) {
-    beams.bounds = grownBox(update.node->map(), points.own, beams.origin, update.max_range);
+    beams.bounds = grownBox(map, points.own, beams.origin, update.max_range);
     if (beams.bounds->isEmpty()) return {};  // nothing mapped yet, nothing to map
   }
+  OwnBeams own;
+  if (update.bounded && update.profile->grazing == Grazing::spare) {
+    own = spareSurface(points.own, beams.origin, map.resolution(), update.max_range);
+    points.others.insert(points.others.end(), own.cleared.begin(), own.cleared.end());
+  } else {
+    own.hits = std::move(points.own);
+  }
+  beams.hits = own.hits;
+  beams.endpoints = own.endpoints;
+  beams.passing = points.others;
   requireMemory(update, beams);
-  const ScanUpdateReport report = update.node->map().update(engine, beams);
+  const ScanUpdateReport report = map.update(engine, beams);
   update.node->last_scan = z.scan;
   update.node->version = z.scan;
   return report;

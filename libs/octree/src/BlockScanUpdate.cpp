@@ -20,22 +20,47 @@ using engine::ScanBeams;
 using engine::ScanMarks;
 using engine::Scratch;
 
-/// Beams of a part of a scan.
-struct BeamList {
-  std::vector<Eigen::Vector3f> hits;
-  std::vector<Eigen::Vector3f> passing;
+using Points = std::span<const Eigen::Vector3f>;
+
+/// Beams of a part of a scan, see `Beams`.
+struct BeamsOfPart {
+  Points hits;
+  Points passing;
+  Points endpoints;
+
+  [[nodiscard]] bool empty() const { return hits.empty() && passing.empty() && endpoints.empty(); }
+  [[nodiscard]] std::size_t beams() const { return hits.size() + passing.size(); }
+
+  /// The `task`th of so many shares.
+  [[nodiscard]] BeamsOfPart share(std::size_t task, std::size_t tasks) const {
+    const auto of = [&](Points points) {
+      const std::size_t first = points.size() * task / tasks;
+      return points.subspan(first, points.size() * (task + 1) / tasks - first);
+    };
+    return {of(hits), of(passing), of(endpoints)};
+  }
 };
 
-/// Those that may meet a box.
-BeamList beamsNear(const ScanBeams& scan, std::span<const Eigen::Vector3f> hits,
-                   std::span<const Eigen::Vector3f> passing, const KeyBox& box) {
-  const engine::BoxFilter filter(scan.grid(), scan.origin(), box);
-  const auto may_meet = [&filter](const Eigen::Vector3f& end) { return filter.mayMeet(end); };
-  BeamList near;
-  std::copy_if(hits.begin(), hits.end(), std::back_inserter(near.hits), may_meet);
-  std::copy_if(passing.begin(), passing.end(), std::back_inserter(near.passing), may_meet);
-  return near;
-}
+/// Those of a part that may meet a box.
+class BeamsNear {
+ public:
+  BeamsNear(const ScanBeams& scan, const BeamsOfPart& part, const KeyBox& box) {
+    const engine::BoxFilter filter(scan.grid(), scan.origin(), box);
+    const auto take = [&filter](Points points, std::vector<Eigen::Vector3f>& near) {
+      std::copy_if(points.begin(), points.end(), std::back_inserter(near),
+                   [&filter](const Eigen::Vector3f& end) { return filter.mayMeet(end); });
+    };
+    take(part.hits, hits_);
+    take(part.passing, passing_);
+    take(part.endpoints, endpoints_);
+  }
+  [[nodiscard]] BeamsOfPart part() const { return {hits_, passing_, endpoints_}; }
+
+ private:
+  std::vector<Eigen::Vector3f> hits_;
+  std::vector<Eigen::Vector3f> passing_;
+  std::vector<Eigen::Vector3f> endpoints_;
+};
 
 /// The two halves of a box, cut across its longest edge at a border of blocks.
 std::array<KeyBox, 2> halves(const KeyBox& box) {
@@ -79,36 +104,33 @@ class ScanPass {
       : tree_(tree), scan_(scan), best_(best_instructions), pool_(pool), max_pages_(maxPages(scan)) {}
 
   void run() {
+    const Beams& beams = scan_.beams();
     if (!scan_.box().empty())
-      updatePart(scan_.box(), scan_.bounded(), scan_.beams().hits, scan_.beams().passing);
+      updatePart(scan_.box(), scan_.bounded(), {beams.hits, beams.passing, beams.endpoints});
     for (const engine::Key& key : scan_.strays()) updateStray(key);
   }
 
  private:
-  using Points = std::span<const Eigen::Vector3f>;
-
-  void updatePart(const KeyBox& box, bool bounded, Points hits, Points passing) {
-    if (hits.empty() && passing.empty()) return;
-    if (isTooLarge(box, hits, passing)) {
+  void updatePart(const KeyBox& box, bool bounded, const BeamsOfPart& beams) {
+    if (beams.empty()) return;
+    if (isTooLarge(box, beams)) {
       for (const KeyBox& half : halves(box)) {
-        const BeamList near = beamsNear(scan_, hits, passing, half);
-        updatePart(half, true, near.hits, near.passing);
+        const BeamsNear near(scan_, beams, half);
+        updatePart(half, true, near.part());
       }
       return;
     }
-    const std::size_t tasks = tasksFor(hits.size() + passing.size());
+    const std::size_t tasks = tasksFor(beams.beams());
     std::vector<std::unique_ptr<Scratch>> scratch(tasks);
     for (auto& s : scratch) s = pool_.take();
     {
       std::vector<std::unique_ptr<ScanMarks>> marks(tasks);
-      const auto share = [tasks](Points points, std::size_t task) {
-        const std::size_t first = points.size() * task / tasks;
-        return points.subspan(first, points.size() * (task + 1) / tasks - first);
-      };
       const auto mark = [&](std::size_t task) {
         marks[task] = std::make_unique<ScanMarks>(scan_, box, bounded, best_, *scratch[task]);
-        marks[task]->addHits(share(hits, task));
-        marks[task]->addPassing(share(passing, task));
+        const BeamsOfPart share = beams.share(task, tasks);
+        marks[task]->addHits(share.hits);
+        marks[task]->addPassing(share.passing);
+        marks[task]->addEndpoints(share.endpoints);
         marks[task]->finish();
       };
       if (tasks == 1) {
@@ -151,11 +173,11 @@ class ScanPass {
   }
 
   /// True if the box does not fit a bitmap, or the bitmap would take too much memory.
-  bool isTooLarge(const KeyBox& box, Points hits, Points passing) const {
+  bool isTooLarge(const KeyBox& box, const BeamsOfPart& beams) const {
     if (engine::BlockFrame(box).levels() > engine::BlockFrame::kMaxLevels) return true;
     constexpr double kSamples = 1 << 16;
     return pagesIn(box) > max_pages_ &&
-           engine::BeamDensity(scan_, box, hits, passing, kSamples).pages() > max_pages_;
+           engine::BeamDensity(scan_, box, beams.hits, beams.passing, kSamples).pages() > max_pages_;
   }
 
   /// Shares of the beams marked at the same time, each with bitmaps of its own: few, and none too small.

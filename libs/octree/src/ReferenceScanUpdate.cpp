@@ -58,6 +58,7 @@ class ScanKeys {
         max_range_(beams.max_range) {
     for (const auto& p : beams.hits) addBeam(toOctomap(p), true);
     for (const auto& p : beams.passing) addBeam(toOctomap(p), false);
+    for (const auto& p : beams.endpoints) addEndpoint(toOctomap(p));
   }
 
   [[nodiscard]] const KeySet& free() const { return free_; }
@@ -67,12 +68,20 @@ class ScanKeys {
  private:
   // As stock insertPointCloud: a beam that is too long is cut and has no endpoint.
   void addBeam(const point3d& end, bool is_hit) {
-    if (max_range_ >= 0.0 && (end - origin_).norm() > max_range_) {
+    if (isTooLong(end)) {
       carve(origin_ + (end - origin_).normalized() * static_cast<float>(max_range_));
       return;
     }
     carve(end);
-    if (!is_hit) return;
+    if (is_hit) addEndpoint(end);
+  }
+
+  [[nodiscard]] bool isTooLong(const point3d& end) const {
+    return max_range_ >= 0.0 && (end - origin_).norm() > max_range_;
+  }
+
+  void addEndpoint(const point3d& end) {
+    if (isTooLong(end)) return;
     OcTreeKey key;
     if (!tree_.coordToKeyChecked(end, key)) {
       ++report_.beyond_key_range;

@@ -31,7 +31,7 @@ struct Extent {
 KeyBox reachOf(const ScanBeams& scan) {
   const VoxelGrid& grid = scan.grid();
   Extent extent(scan.origin());
-  const auto points = {scan.beams().hits, scan.beams().passing};
+  const auto points = {scan.beams().hits, scan.beams().passing, scan.beams().endpoints};
   for (const auto list : points) {
     for (const Vector3f& p : list) extent.add(p);
   }
@@ -78,9 +78,12 @@ ScanBeams::ScanBeams(const VoxelGrid& grid, const Beams& beams) : grid_(grid), b
 }
 
 bool ScanBeams::allAddressable() const {
-  Key key;
-  return std::all_of(beams_.hits.begin(), beams_.hits.end(),
-                     [&](const Vector3f& p) { return grid_.checkedKey(p, key); });
+  const auto addressable = [this](const Vector3f& p) {
+    Key key;
+    return grid_.checkedKey(p, key);
+  };
+  return std::all_of(beams_.hits.begin(), beams_.hits.end(), addressable) &&
+         std::all_of(beams_.endpoints.begin(), beams_.endpoints.end(), addressable);
 }
 
 void ScanBeams::findOddities(const KeyBox& reach, const KeyBox& bounds) {
@@ -107,6 +110,9 @@ void ScanBeams::findOddities(const KeyBox& reach, const KeyBox& bounds) {
     const Vector3f end = isTooLong(p) ? cut(p) : p;
     if (grid_.checkedKey(end, key)) findStrays(end, key);
   }
+  beyond_key_range_ += static_cast<std::size_t>(
+      std::count_if(beams_.endpoints.begin(), beams_.endpoints.end(),
+                    [&](const Vector3f& p) { return !isTooLong(p) && !grid_.checkedKey(p, key); }));
   std::sort(strays_.begin(), strays_.end());
   strays_.erase(std::unique(strays_.begin(), strays_.end()), strays_.end());
 }

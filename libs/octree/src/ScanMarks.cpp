@@ -30,12 +30,16 @@ ScanMarks::~ScanMarks() {
 }
 
 void ScanMarks::addHits(std::span<const Vector3f> points) {
+  addEndpoints(points);
+  addBeams(points);
+}
+
+void ScanMarks::addEndpoints(std::span<const Vector3f> points) {
   Key key;
   for (const Vector3f& p : points) {
     if (scan_.isTooLong(p) || !scan_.grid().checkedKey(p, key)) continue;
     if (box_.contains(key)) scratch_.occupied.mark(frame_.localCode(key));
   }
-  addBeams(points);
 }
 
 void ScanMarks::addPassing(std::span<const Vector3f> points) {

@@ -31,6 +31,7 @@ class ScanMarks {
 
   void addHits(std::span<const Eigen::Vector3f> points);
   void addPassing(std::span<const Eigen::Vector3f> points);
+  void addEndpoints(std::span<const Eigen::Vector3f> points);
   void addFree(const Key& key) { scratch_.free.mark(frame_.localCode(key)); }
   /// To be called once after the last point.
   void finish();

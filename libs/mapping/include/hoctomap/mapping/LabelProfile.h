@@ -12,6 +12,7 @@ namespace hoctomap {
 
 enum class FrameChoice { world, pca };  ///< axes of a new node: the world's, or principal components (IV-A)
 enum class Carve { own, scan };         ///< whose beams clear a node's free space: its own segments', or all
+enum class Grazing { clear, spare };    ///< whether beams clear voxels of the surface that they end on
 
 /// How nodes of one label are mapped (Section III-E: "adapt certain map properties").
 struct LabelProfile {
@@ -21,6 +22,7 @@ struct LabelProfile {
   OccupancyModel occupancy;
   FrameChoice frame = FrameChoice::pca;
   Carve carve = Carve::own;
+  Grazing grazing = Grazing::clear;
   ExistenceParameters existence;
   bool existence_enabled = true;  ///< false: nodes of this label are never removed for lack of evidence
 };

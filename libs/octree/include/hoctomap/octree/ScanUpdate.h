@@ -15,8 +15,9 @@ namespace hoctomap {
 /// The beams of one scan for one node map, all in the node's frame (after Eq. 12).
 struct Beams {
   Eigen::Vector3f origin = Eigen::Vector3f::Zero();  ///< o'_z
-  std::span<const Eigen::Vector3f> hits;     ///< endpoints in this node: carve up to them, then occupied
-  std::span<const Eigen::Vector3f> passing;  ///< endpoints in other nodes: only carve up to them
+  std::span<const Eigen::Vector3f> hits;       ///< endpoints in this node: carve up to them, then occupied
+  std::span<const Eigen::Vector3f> passing;    ///< endpoints in other nodes: only carve up to them
+  std::span<const Eigen::Vector3f> endpoints;  ///< only become occupied; what their beams clear is `passing`
   /// Beams longer than this are cut: free up to it and no endpoint, as in stock OctoMap. Negative: no limit.
   double max_range = -1.0;
   /// Only voxels whose key lies between the keys of the corners (inclusive) are updated. Empty: unbounded.
@@ -34,7 +35,7 @@ struct ScanUpdateReport {
 ///  1. each voxel is updated at most once a scan, occupied wins over free;
 ///  2. free voxels are those that stock OctoMap's `computeRayKeys` visits and that lie within the bounds;
 ///  3. the tree is left pruned with inner nodes up to date, whatever order the voxels were updated in;
-///  4. without bounds and passing beams the result equals stock `insertPointCloud`.
+///  4. with `hits` alone and no bounds the result equals stock `insertPointCloud`.
 class ScanUpdate {
  public:
   virtual ~ScanUpdate() = default;
