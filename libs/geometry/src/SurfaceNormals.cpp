@@ -6,6 +6,8 @@
 #include <array>
 #include <cmath>
 #include <cstdint>
+#include <unordered_map>
+#include <utility>
 #include <vector>
 
 namespace hoctomap {
@@ -48,57 +50,51 @@ struct Moments {
   }
 };
 
-struct Cell {
-  CellKey key = 0;
-  std::size_t first = 0;  ///< of its points in the sorted list
-  std::size_t last = 0;   ///< past the end
-  Moments moments;
-};
-
-/// The cells that hold points, in the order of their keys.
+/// The cells that hold points.
 class Cells {
  public:
   Cells(std::span<const Eigen::Vector3f> points, double cell) {
-    sorted_.reserve(points.size());
+    cell_of_point_.reserve(points.size());
     Eigen::Vector3f low = points.front();
     for (const auto& p : points) low = low.cwiseMin(p);
     const auto per_metre = static_cast<float>(1.0 / cell);
-    for (std::size_t i = 0; i < points.size(); ++i) {
-      const Eigen::Vector3f c = (points[i] - low) * per_metre;
-      CellKey key = 0;
-      for (std::size_t a = 0; a < 3; ++a) {
-        constexpr float kLargest = 2e6F;  // within 21 bits, with a neighbour
-        const float at = std::min(c[static_cast<Eigen::Index>(a)], kLargest);
-        key += (static_cast<CellKey>(at) + 1) * kStride[a];
-      }
-      sorted_.emplace_back(key, static_cast<std::uint32_t>(i));
-    }
-    std::sort(sorted_.begin(), sorted_.end());
     const Eigen::Vector3d origin = points.front().cast<double>();
-    for (std::size_t i = 0; i < sorted_.size(); ++i) {
-      const auto& [key, point] = sorted_[i];
-      if (cells_.empty() || cells_.back().key != key) cells_.push_back({key, i, i, {}});
-      cells_.back().last = i + 1;
-      cells_.back().moments.add(points[point].cast<double>() - origin);
+    std::unordered_map<CellKey, std::uint32_t> numbers;
+    std::uint32_t number = 0;
+    for (const auto& p : points) {
+      const CellKey key = keyOf((p - low) * per_metre);
+      if (keys_.empty() || keys_[number] != key) {  // neighbours of an image mostly share their cell
+        const auto [found, is_new] = numbers.try_emplace(key, static_cast<std::uint32_t>(keys_.size()));
+        number = found->second;
+        if (is_new) {
+          keys_.push_back(key);
+          moments_.emplace_back();
+        }
+      }
+      moments_[number].add(p.cast<double>() - origin);
+      cell_of_point_.push_back(number);
     }
   }
 
-  [[nodiscard]] const std::vector<Cell>& all() const { return cells_; }
-  [[nodiscard]] std::uint32_t point(std::size_t i) const { return sorted_[i].second; }
+  [[nodiscard]] std::size_t size() const { return keys_.size(); }
+  [[nodiscard]] std::uint32_t cellOfPoint(std::size_t i) const { return cell_of_point_[i]; }
 
-  /// The sums over the 27 cells around every cell, in the order of `all()`. The neighbours of successive
-  /// cells in one direction follow each other: nine hands go through the list together.
+  /// The sums over the 27 cells around every cell. In the order of the keys the cells next to successive
+  /// ones follow each other: nine hands go through the list.
   [[nodiscard]] std::vector<Moments> aroundAll() const {
-    std::vector<Moments> around(cells_.size());
+    std::vector<std::pair<CellKey, std::uint32_t>> order;
+    for (std::uint32_t i = 0; i < size(); ++i) order.emplace_back(keys_[i], i);
+    std::sort(order.begin(), order.end());
+    std::vector<Moments> around(size());
     for (CellKey dx = -1; dx <= 1; ++dx) {
       for (CellKey dy = -1; dy <= 1; ++dy) {
         const CellKey offset = dx * kStride[0] + dy * kStride[1];
         std::size_t hand = 0;
-        for (std::size_t i = 0; i < cells_.size(); ++i) {
-          const CellKey middle = cells_[i].key + offset;
-          while (hand < cells_.size() && cells_[hand].key < middle - 1) ++hand;
-          for (std::size_t j = hand; j < cells_.size() && cells_[j].key <= middle + 1; ++j) {
-            around[i].add(cells_[j].moments);
+        for (const auto& [key, i] : order) {
+          const CellKey middle = key + offset;
+          while (hand < order.size() && order[hand].first < middle - 1) ++hand;
+          for (std::size_t j = hand; j < order.size() && order[j].first <= middle + 1; ++j) {
+            around[i].add(moments_[order[j].second]);
           }
         }
       }
@@ -107,22 +103,30 @@ class Cells {
   }
 
  private:
-  std::vector<std::pair<CellKey, std::uint32_t>> sorted_;  ///< cell and index of every point
-  std::vector<Cell> cells_;
+  static CellKey keyOf(const Eigen::Vector3f& at) {
+    CellKey key = 0;
+    for (std::size_t a = 0; a < 3; ++a) {
+      constexpr float kLargest = 2e6F;  // within 21 bits, with a neighbour
+      key += (static_cast<CellKey>(std::min(at[static_cast<Eigen::Index>(a)], kLargest)) + 1) * kStride[a];
+    }
+    return key;
+  }
+
+  std::vector<CellKey> keys_;
+  std::vector<Moments> moments_;
+  std::vector<std::uint32_t> cell_of_point_;
 };
 
 }  // namespace
 
 PointCloud surfaceNormals(std::span<const Eigen::Vector3f> points, double cell) {
-  PointCloud normals(points.size(), Eigen::Vector3f::Zero());
+  PointCloud normals;
   if (points.empty()) return normals;
   const Cells cells(points, cell);
-  const std::vector<Moments> around = cells.aroundAll();
-  for (std::size_t i = 0; i < around.size(); ++i) {
-    const Eigen::Vector3f normal = around[i].normal();
-    const Cell& members = cells.all()[i];
-    for (std::size_t j = members.first; j < members.last; ++j) normals[cells.point(j)] = normal;
-  }
+  PointCloud normal_of_cell;
+  for (const Moments& around : cells.aroundAll()) normal_of_cell.push_back(around.normal());
+  normals.reserve(points.size());
+  for (std::size_t i = 0; i < points.size(); ++i) normals.push_back(normal_of_cell[cells.cellOfPoint(i)]);
   return normals;
 }
 
