@@ -211,8 +211,8 @@ void HierarchyMapper::updateMaps(const Measurement& z, const std::vector<Labelle
   std::vector<ScanUpdateReport> results(updates.size());
   tbb::parallel_for(std::size_t{0}, updates.size(), [&](std::size_t i) {
     results[i] = updateNodeMap(updates[i], z, *strategies_.update);
-    static_cast<void>(
-        updates[i].node->map().occupiedBox());  // all that follows asks for it: here in parallel
+    // All that follows asks for the box of a node: here in parallel. A single map has no use for it.
+    if (config_.bounded) static_cast<void>(updates[i].node->map().occupiedBox());
   });
 
   std::vector<NodeId> created;
