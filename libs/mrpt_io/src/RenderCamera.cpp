@@ -9,6 +9,7 @@
 #include <locale>
 #include <optional>
 #include <sstream>
+#include <utility>
 
 #include "hoctomap/geometry/Errors.h"
 #include "hoctomap/mrpt_io/RenderMap.h"
@@ -67,6 +68,31 @@ std::size_t inTheWay(const MapHierarchy& hierarchy, const RenderCamera& camera, 
   }));
 }
 
+/// Azimuth of the side that the tables and objects were seen from, in degrees: free voxels of a node lie
+/// between its surface and the sensor. 0 if there are none.
+double seenFrom(const MapHierarchy& hierarchy) {
+  Eigen::Vector3d sum = Eigen::Vector3d::Zero();
+  for (const NodeId id : hierarchy.ids()) {
+    const octomap::OcTree& tree = hierarchy.node(id).map().tree();
+    Eigen::Vector3d occupied = Eigen::Vector3d::Zero();
+    Eigen::Vector3d free = Eigen::Vector3d::Zero();
+    double occupied_volume = 0.0;
+    double free_volume = 0.0;
+    if (id == kRootId) continue;
+    for (auto leaf = tree.begin_leafs(); leaf != tree.end_leafs(); ++leaf) {
+      const double volume = std::pow(leaf.getSize(), 3);
+      const Eigen::Vector3d centre(leaf.getX(), leaf.getY(), leaf.getZ());
+      const bool is_occupied = tree.isNodeOccupied(*leaf);
+      (is_occupied ? occupied : free) += volume * centre;
+      (is_occupied ? occupied_volume : free_volume) += volume;
+    }
+    if (occupied_volume == 0.0 || free_volume == 0.0) continue;
+    sum +=
+        toIsometry(hierarchy.world_T_node(id)).linear() * (free / free_volume - occupied / occupied_volume);
+  }
+  return mrpt::RAD2DEG(std::atan2(sum.y(), sum.x()));
+}
+
 struct View {
   const char* name;
   double azimuth;
@@ -117,17 +143,22 @@ RenderCamera cameraFor(const MapHierarchy& hierarchy, const std::string& view, d
   }
   if (view != "oblique") throw ConfigError("there is no view `" + view + "`");
   const double radius = 0.5 * bounds.diagonal().norm();
-  RenderCamera best;
-  auto least = static_cast<std::size_t>(-1);
-  for (int i = 0; i < 12; ++i) {
-    camera.azimuth = -120.0 + 30.0 * i;
+  // From the side that was seen, unless something stands in the way: then from the nearest other side.
+  const double seen = seenFrom(hierarchy);
+  std::vector<std::pair<RenderCamera, std::size_t>> candidates;
+  for (const double turn :
+       {0.0, 30.0, -30.0, 60.0, -60.0, 90.0, -90.0, 120.0, -120.0, 150.0, -150.0, 180.0}) {
+    camera.azimuth = seen + turn;
     camera.elevation = 38.0;
     camera.distance = distanceFor(camera, points, aspect);
-    const std::size_t blocked = inTheWay(hierarchy, camera, radius);
-    if (blocked < least) best = camera;
-    least = std::min(least, blocked);
+    candidates.emplace_back(camera, inTheWay(hierarchy, camera, radius));
   }
-  return best;
+  const auto by_blocked = [](const auto& a, const auto& b) { return a.second < b.second; };
+  const std::size_t least = std::min_element(candidates.begin(), candidates.end(), by_blocked)->second;
+  const std::size_t tolerable = least + hierarchy.root().map().occupiedVoxels().size() / 200;
+  return std::find_if(candidates.begin(), candidates.end(),
+                      [&](const auto& candidate) { return candidate.second <= tolerable; })
+      ->first;
 }
 
 }  // namespace hoctomap

@@ -17,7 +17,8 @@ struct RenderOptions {
 };
 
 /// What `RenderOptions::view` may be, besides `AZIMUTH,ELEVATION` (degrees, of the eye as seen from what is
-/// looked at). `oblique`: from above, from the side where least stands in the way.
+/// looked at). `oblique`: from above, from the side that was seen, or the
+/// next one where little stands in the way.
 [[nodiscard]] const std::vector<std::string>& renderViews();
 
 /// Writes a PNG of a map, nodes coloured by label as in Fig. 3 of the paper; tables and objects fill the
