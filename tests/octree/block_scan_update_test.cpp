@@ -37,7 +37,7 @@ octomap::Pointcloud toOctomap(std::span<const Eigen::Vector3f> points) {
 TEST(BlockScanUpdate, UnboundedScansGiveTheSameBytes) {
   for (int seed = 0; seed < 50 * sweepFactor(); ++seed) {
     SceneMaker scene(static_cast<std::uint64_t>(seed));
-    Pair pair(scene.resolution(), seed % 4 == 0 ? Instructions::baseline : Instructions::best);
+    Pair pair(scene.resolution(), instructionsFor(static_cast<std::uint64_t>(seed)));
     for (int scan = 0; scan < 4; ++scan) {
       ASSERT_EQ(pair.update(scene.scan(150, scan % 2 == 0 ? 0 : 50, scan == 3 ? 30 : 0)), "")
           << "seed " << seed << " scan " << scan;
@@ -49,7 +49,7 @@ TEST(BlockScanUpdate, BoundedScansGiveTheSameBytes) {
   int met = 0;
   for (int seed = 1000; seed < 1000 + 220 * sweepFactor(); ++seed) {
     SceneMaker scene(static_cast<std::uint64_t>(seed));
-    Pair pair(scene.resolution(), seed % 4 == 0 ? Instructions::baseline : Instructions::best);
+    Pair pair(scene.resolution(), instructionsFor(static_cast<std::uint64_t>(seed)));
     for (int scan = 0; scan < 4; ++scan) {
       Beams beams = scene.scan(60, 60, scan == 3 ? 20 : 0);
       beams.bounds = scene.box();

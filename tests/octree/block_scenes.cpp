@@ -151,4 +151,8 @@ int sweepFactor() {
   return set == nullptr ? 1 : std::max(1, std::atoi(set));
 }
 
+Instructions instructionsFor(std::uint64_t seed) {
+  return seed % 4 == 0 ? Instructions::baseline : seed % 4 == 1 ? Instructions::avx2 : Instructions::best;
+}
+
 }  // namespace hoctomap::test

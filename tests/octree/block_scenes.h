@@ -9,7 +9,7 @@
 #include <random>
 #include <string>
 
-#include "hoctomap/octree/ScanUpdate.h"
+#include "hoctomap/octree/BlockScanUpdate.h"
 
 namespace hoctomap::test {
 
@@ -53,5 +53,8 @@ std::string difference(const octomap::OcTree& a, const octomap::OcTree& b);
 
 /// How much more than usual to test: environment variable HOCTOMAP_SWEEP, default 1.
 int sweepFactor();
+
+/// The instructions to test with: the best ones mostly, else one of the others.
+Instructions instructionsFor(std::uint64_t seed);
 
 }  // namespace hoctomap::test

@@ -176,7 +176,7 @@ TEST(MarkedReach, DenseScansGiveTheSameBytes) {
   for (std::uint64_t seed = 0; seed < 14U * static_cast<unsigned>(test::sweepFactor()); ++seed) {
     Random random(100 + seed);
     const double resolution = std::array{0.001, 0.01, 0.0073, 0.05}[seed % 4];
-    const auto fast = makeBlockScanUpdate(seed % 4 == 1 ? Instructions::baseline : Instructions::best);
+    const auto fast = makeBlockScanUpdate(test::instructionsFor(seed));
     octomap::OcTree expected(resolution);
     octomap::OcTree actual(resolution);
     Beams beams;

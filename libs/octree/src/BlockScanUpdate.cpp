@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "hoctomap/octree/BlockScanUpdate.h"
 
+#include <tbb/global_control.h>
 #include <tbb/parallel_for.h>
 #include <tbb/task_arena.h>
 
@@ -100,8 +101,8 @@ class ScratchPool {
 /// different parts do not depend on each other.
 class ScanPass {
  public:
-  ScanPass(octomap::OcTree& tree, const ScanBeams& scan, bool best_instructions, ScratchPool& pool)
-      : tree_(tree), scan_(scan), best_(best_instructions), pool_(pool), max_pages_(maxPages(scan)) {}
+  ScanPass(octomap::OcTree& tree, const ScanBeams& scan, engine::InstructionSet set, ScratchPool& pool)
+      : tree_(tree), scan_(scan), set_(set), pool_(pool), max_pages_(maxPages(scan)) {}
 
   void run() {
     const Beams& beams = scan_.beams();
@@ -126,7 +127,7 @@ class ScanPass {
     {
       std::vector<std::unique_ptr<ScanMarks>> marks(tasks);
       const auto mark = [&](std::size_t task) {
-        marks[task] = std::make_unique<ScanMarks>(scan_, box, bounded, best_, *scratch[task]);
+        marks[task] = std::make_unique<ScanMarks>(scan_, box, bounded, set_, *scratch[task]);
         const BeamsOfPart share = beams.share(task, tasks);
         marks[task]->addHits(share.hits);
         marks[task]->addPassing(share.passing);
@@ -183,14 +184,16 @@ class ScanPass {
   /// Shares of the beams marked at the same time, each with bitmaps of its own: few, and none too small.
   static std::size_t tasksFor(std::size_t beams) {
     constexpr std::size_t kBeamsATask = 4000;
-    const auto threads = static_cast<std::size_t>(tbb::this_task_arena::max_concurrency());
+    const std::size_t threads =
+        std::min(static_cast<std::size_t>(tbb::this_task_arena::max_concurrency()),
+                 tbb::global_control::active_value(tbb::global_control::max_allowed_parallelism));
     return std::clamp(beams / kBeamsATask, std::size_t{1}, threads);
   }
 
   void updateStray(const engine::Key& key) {
     auto scratch = pool_.take();
     {
-      ScanMarks marks(scan_, {key, key}, true, best_, *scratch);
+      ScanMarks marks(scan_, {key, key}, true, set_, *scratch);
       marks.addFree(key);
       engine::updateTree(tree_, marks.blocks());
     }
@@ -199,25 +202,38 @@ class ScanPass {
 
   octomap::OcTree& tree_;
   const ScanBeams& scan_;
-  bool best_;
+  engine::InstructionSet set_;
   ScratchPool& pool_;
   double max_pages_;
 };
 
 class BlockScanUpdate : public ScanUpdate {
  public:
-  explicit BlockScanUpdate(Instructions instructions) : best_(instructions == Instructions::best) {}
+  explicit BlockScanUpdate(Instructions instructions)
+      : set_(std::min(engine::bestInstructionSet(), limit(instructions))) {}
 
   ScanUpdateReport apply(octomap::OcTree& tree, const Beams& beams) const override {
     if (tree.isChangeDetectionEnabled()) return reference_->apply(tree, beams);
     const engine::VoxelGrid grid(tree.getResolution());
     const ScanBeams scan(grid, beams);
-    ScanPass(tree, scan, best_, pool_).run();
+    ScanPass(tree, scan, set_, pool_).run();
     return {scan.beyondKeyRange()};
   }
 
  private:
-  bool best_;
+  static engine::InstructionSet limit(Instructions instructions) {
+    switch (instructions) {
+      case Instructions::best:
+        break;
+      case Instructions::avx2:
+        return engine::InstructionSet::avx2;
+      case Instructions::baseline:
+        return engine::InstructionSet::baseline;
+    }
+    return engine::InstructionSet::avx512;
+  }
+
+  engine::InstructionSet set_;
   std::unique_ptr<ScanUpdate> reference_ = makeReferenceScanUpdate();
   mutable ScratchPool pool_;
 };

@@ -7,8 +7,11 @@ namespace hoctomap::engine {
 
 namespace {
 
-/// Four rays, axis by axis: see `Ray`, whose arithmetic this repeats to the last bit.
+/// Several rays, axis by axis: see `Ray`, whose arithmetic this repeats to the last bit.
+template <std::size_t lanes>
 struct Rays {
+  using Doubles = typename Lanes<lanes>::Doubles;
+  using Codes = typename Lanes<lanes>::Codes;
   Doubles next[3];
   Doubles delta[3];
   Doubles steps[3];
@@ -18,72 +21,73 @@ struct Rays {
 
 /// Crossings of an axis before the time t. `doubt` is set where that is too close to call without the exact
 /// times: they differ from these by less than 1e-6 of a step.
-HOCTOMAP_INLINE Doubles crossingsBefore(const Doubles& t, const Doubles& next, const Doubles& delta,
-                                        Codes& doubt) {
+template <class V, class M>
+HOCTOMAP_INLINE V crossingsBefore(const V& t, const V& next, const V& delta, M& doubt) {
   constexpr double kClose = 1e-5;
-  Doubles q = (t - next) / delta;
-  q = q > -0.5 ? q : Doubles{} - 0.5;
-  q = q < 1e6 ? q : Doubles{} + 1e6;
-  const Doubles down = floorOf(q);
-  const Doubles fraction = q - down;
+  V q = (t - next) / delta;
+  q = q > -0.5 ? q : V{} - 0.5;
+  q = q < 1e6 ? q : V{} + 1e6;
+  const V down = floorOf(q);
+  const V fraction = q - down;
   doubt |= (fraction < kClose) | (fraction > 1.0 - kClose);
   return down + 1.0;
 }
 
 /// Cuts the rays to the box. @param taken out: steps taken on entering, by axis.
-HOCTOMAP_INLINE void cut(const RayFan& fan, const Rays& rays, Codes& live, Codes& doubt, Doubles taken[3],
-                         Doubles& cells) {
+template <std::size_t lanes, class V = typename Lanes<lanes>::Doubles, class M = typename Lanes<lanes>::Codes>
+HOCTOMAP_INLINE void cut(const RayFan& fan, const Rays<lanes>& rays, M& live, M& doubt, V taken[3],
+                         V& cells) {
   constexpr double kNever = 1e300;
-  Doubles enter = Doubles{} - kNever;
-  Doubles leave = Doubles{} + kNever;
-  Doubles total = rays.steps[0] + rays.steps[1] + rays.steps[2];
-  Doubles needed_in[3] = {};
-  Doubles time_in[3];
-  Doubles needed_out[3];
-  Doubles time_out[3];
+  V enter = V{} - kNever;
+  V leave = V{} + kNever;
+  V total = rays.steps[0] + rays.steps[1] + rays.steps[2];
+  V needed_in[3] = {};
+  V time_in[3];
+  V needed_out[3];
+  V time_out[3];
   bool inside = true;
   for (std::size_t i = 0; i < 3; ++i) {
     const RayFan::Axis& axis = fan.axes[i];
-    time_in[i] = Doubles{} - kNever;
+    time_in[i] = V{} - kNever;
     if (!axis.inside) {
       inside = false;
-      needed_in[i] = either(rays.forward[i], Doubles{} + axis.before[1], Doubles{} + axis.before[0]);
+      needed_in[i] = either(rays.forward[i], V{} + axis.before[1], V{} + axis.before[0]);
       live &= (needed_in[i] > 0.0) & (needed_in[i] <= rays.steps[i]);
       time_in[i] = rays.next[i] + (needed_in[i] - 1.0) * rays.delta[i];
       enter = greater(enter, time_in[i]);
     }
-    needed_out[i] = either(rays.forward[i], Doubles{} + axis.leave[1], Doubles{} + axis.leave[0]);
-    const Codes leaves = needed_out[i] <= rays.steps[i];
-    time_out[i] = either(leaves, rays.next[i] + (needed_out[i] - 1.0) * rays.delta[i], Doubles{} + kNever);
+    needed_out[i] = either(rays.forward[i], V{} + axis.leave[1], V{} + axis.leave[0]);
+    const M leaves = needed_out[i] <= rays.steps[i];
+    time_out[i] = either(leaves, rays.next[i] + (needed_out[i] - 1.0) * rays.delta[i], V{} + kNever);
     leave = lesser(leave, time_out[i]);
   }
-  live &= enter <
-          leave * (1.0 + 1e-9) + 1e-9;  // what is close is in doubt below, where the crossings are counted
+  // What is close is in doubt below, where the crossings are counted.
+  live &= enter < leave * (1.0 + 1e-9) + 1e-9;
   if (!anyOf(live)) return;
 
-  Doubles first = Doubles{};
-  for (std::size_t i = 0; i < 3; ++i) taken[i] = Doubles{};
+  V first = V{};
+  for (std::size_t i = 0; i < 3; ++i) taken[i] = V{};
   if (!inside) {
-    Codes found{};
+    M found{};
     for (std::size_t i = 0; i < 3; ++i) {
-      const Codes here = time_in[i] == enter;
-      Codes close{};
-      const Doubles others = crossingsBefore(enter, rays.next[i], rays.delta[i], close);
+      const M here = time_in[i] == enter;
+      M close{};
+      const V others = crossingsBefore(enter, rays.next[i], rays.delta[i], close);
       doubt |= (close & ~here) | (here & found);
       found |= here;
       taken[i] = either(here, needed_in[i], others);
       first += taken[i];
     }
   }
-  const Codes ends_inside = leave >= kNever;
-  Doubles last = Doubles{};
+  const M ends_inside = leave >= kNever;
+  V last = V{};
   if (anyOf(~ends_inside)) {
-    Codes found{};
+    M found{};
     for (std::size_t i = 0; i < 3; ++i) {
-      const Codes here = time_out[i] == leave;
-      Codes close{};
-      const Doubles t = either(ends_inside, Doubles{}, leave);
-      const Doubles others = crossingsBefore(t, rays.next[i], rays.delta[i], close);
+      const M here = time_out[i] == leave;
+      M close{};
+      const V t = either(ends_inside, V{}, leave);
+      const V others = crossingsBefore(t, rays.next[i], rays.delta[i], close);
       doubt |= ~ends_inside & ((close & ~here) | (here & found));
       found |= here;
       last += either(here, needed_out[i] - 1.0, others);
@@ -93,17 +97,20 @@ HOCTOMAP_INLINE void cut(const RayFan& fan, const Rays& rays, Codes& live, Codes
   cells = last - first + 1.0;
 }
 
-/// False if no ray of the batch can come near the box.
-HOCTOMAP_INLINE Codes nearBox(const RayFan& fan, const Floats end[3]) {
-  Doubles enters{};
-  Doubles leaves = Doubles{} + 1.0;
+/// False if no cell of a ray can come near the box.
+template <std::size_t lanes>
+HOCTOMAP_INLINE typename Lanes<lanes>::Codes nearBox(const RayFan& fan,
+                                                     const typename Lanes<lanes>::Floats end[3]) {
+  using V = typename Lanes<lanes>::Doubles;
+  V enters{};
+  V leaves = V{} + 1.0;
   for (std::size_t i = 0; i < 3; ++i) {
     const RayFan::Axis& axis = fan.axes[i];
     // Divided by zero: minus to plus infinity for an origin between the planes (the padding keeps it off
     // them).
-    const Doubles inverse = 1.0 / (toDoubles(end[i]) - static_cast<double>(axis.origin));
-    const Doubles a = axis.to_pad[0] * inverse;
-    const Doubles b = axis.to_pad[1] * inverse;
+    const V inverse = 1.0 / (__builtin_convertvector(end[i], V) - static_cast<double>(axis.origin));
+    const V a = axis.to_pad[0] * inverse;
+    const V b = axis.to_pad[1] * inverse;
     enters = greater(enters, lesser(a, b));
     leaves = lesser(leaves, greater(a, b));
   }
@@ -112,55 +119,55 @@ HOCTOMAP_INLINE Codes nearBox(const RayFan& fan, const Floats end[3]) {
 
 /// Leaves out the first part of rays from inside the box. A ray for which it is not certain where that ends
 /// stays whole.
-HOCTOMAP_INLINE void leaveOut(const Ends& ends, const Rays& rays, Doubles taken[3], Doubles& cells) {
-  Doubles time{};
-  Codes skips{};
-  Doubles skip[3];
-  for (std::size_t i = 0; i < 3; ++i) {
-    for (std::size_t lane = 0; lane < kLanes; ++lane) {
-      skip[i][lane] = ends.skip_axis[lane] == i ? ends.skip_steps[lane] : 0.0;
-    }
-    const Codes here = skip[i] > 0.0;
-    time = either(here, rays.next[i] + (skip[i] - 1.0) * rays.delta[i], time);
-    skips |= here;
-    cells = either(here & (skip[i] > rays.steps[i]), Doubles{}, cells);
+template <std::size_t lanes, class V = typename Lanes<lanes>::Doubles, class M = typename Lanes<lanes>::Codes>
+HOCTOMAP_INLINE void leaveOut(const RayEnds& ends, std::size_t at, const Rays<lanes>& rays, V taken[3],
+                              V& cells) {
+  V steps;
+  M axis;
+  load(steps, ends.skip_steps + at);
+  load(axis, ends.skip_axis + at);
+  M skips = steps > 0.0;
+  V time{};
+  for (Code i = 0; i < 3; ++i) {
+    time = either(skips & (axis == i), rays.next[i] + (steps - 1.0) * rays.delta[i], time);
+    cells = either(skips & (axis == i) & (steps > rays.steps[i]), V{}, cells);
   }
-  Doubles first{};
-  Codes doubt{};
-  for (std::size_t i = 0; i < 3; ++i) {
-    const Codes here = skip[i] > 0.0;
-    Codes close{};
-    const Doubles others = crossingsBefore(time, rays.next[i], rays.delta[i], close);
-    doubt |= close & ~here;
-    taken[i] = either(here, skip[i], others);
+  V first{};
+  M doubt{};
+  for (Code i = 0; i < 3; ++i) {
+    M close{};
+    const V others = crossingsBefore(time, rays.next[i], rays.delta[i], close);
+    doubt |= close & (axis != i);
+    taken[i] = either(axis == i, steps, others);
     first += taken[i];
   }
   skips &= ~doubt;
-  for (std::size_t i = 0; i < 3; ++i) taken[i] = either(skips, taken[i], Doubles{});
-  cells -= either(skips, first, Doubles{});
+  for (std::size_t i = 0; i < 3; ++i) taken[i] = either(skips, taken[i], V{});
+  cells -= either(skips, first, V{});
 }
 
-HOCTOMAP_INLINE void prepare(const RayFan& fan, const Ends& ends, RayBatch& batch) {
-  const std::size_t count = ends.count;
+template <std::size_t lanes>
+HOCTOMAP_INLINE void prepare(const RayFan& fan, const RayEnds& ends, std::size_t at, RayBatch& batch) {
+  using Doubles = typename Lanes<lanes>::Doubles;
+  using Codes = typename Lanes<lanes>::Codes;
+  using Floats = typename Lanes<lanes>::Floats;
   Floats end[3];
-  for (std::size_t lane = 0; lane < kLanes; ++lane) {
-    const Eigen::Vector3f& p = ends.points[lane < count ? lane : 0];
-    end[0][lane] = p[0];
-    end[1][lane] = p[1];
-    end[2][lane] = p[2];
-    batch.state[lane] = RayBatch::State::none;
-  }
-  Codes live = Codes{0, 1, 2, 3} < static_cast<Code>(count);
+  for (std::size_t i = 0; i < 3; ++i) load(end[i], ends.end[i] + at);
+  Codes live{};
+  for (std::size_t lane = 0; lane < lanes; ++lane) live[lane] = at + lane < ends.count ? -1 : 0;
   if (fan.bounded) {
-    live &= nearBox(fan, end);
-    if (!anyOf(live)) return;
+    live &= nearBox<lanes>(fan, end);
+    if (!anyOf(live)) {
+      store(Codes{}, batch.cells + at);
+      return;
+    }
   }
 
   // Keys, as VoxelGrid::checkedKey.
   Doubles distance[3];
   Codes valid = live;
   for (std::size_t i = 0; i < 3; ++i) {
-    const Doubles cell = fan.cells_per_metre * toDoubles(end[i]);
+    const Doubles cell = fan.cells_per_metre * __builtin_convertvector(end[i], Doubles);
     const Codes in_range = (cell >= -kKeyOffset) & (cell < kKeyOffset);
     valid &= in_range;
     const Doubles key = floorOf(either(in_range, cell, Doubles{})) + kKeyOffset;
@@ -173,11 +180,11 @@ HOCTOMAP_INLINE void prepare(const RayFan& fan, const Ends& ends, RayBatch& batc
   const Floats dy = end[1] - fan.axes[1].origin;
   const Floats dz = end[2] - fan.axes[2].origin;
   const Floats square = dx * dx + dy * dy + dz * dz;
-  const Floats length = __builtin_convertvector(rootOf(toDoubles(square)), Floats);
+  const Floats length = __builtin_convertvector(rootOf(__builtin_convertvector(square, Doubles)), Floats);
   const Floats direction[3] = {dx / length, dy / length, dz / length};
-  Rays rays;
+  Rays<lanes> rays;
   for (std::size_t i = 0; i < 3; ++i) {
-    const Doubles d = toDoubles(direction[i]);
+    const Doubles d = __builtin_convertvector(direction[i], Doubles);
     rays.forward[i] = d > 0.0;
     rays.backward[i] = d < 0.0;
     rays.steps[i] = magnitude(distance[i]);
@@ -200,8 +207,9 @@ HOCTOMAP_INLINE void prepare(const RayFan& fan, const Ends& ends, RayBatch& batc
     last = either(stays, last, greater(last, crossing));
     beyond = lesser(beyond, either(stays, rays.next[i], crossing + rays.delta[i]));
   }
-  const Doubles certain = last + 1e-10 * (1.0 + last);
-  regular &= (certain < beyond) & (certain < toDoubles(length));
+  const Doubles margin = 1e-10 * (1.0 + last);
+  const Doubles certain = last + margin;
+  regular &= (certain < beyond) & (certain < __builtin_convertvector(length, Doubles));
 
   Codes special = live & ~regular;
   live &= regular;
@@ -209,44 +217,43 @@ HOCTOMAP_INLINE void prepare(const RayFan& fan, const Ends& ends, RayBatch& batc
   Doubles cells = rays.steps[0] + rays.steps[1] + rays.steps[2];
   if (fan.bounded) {
     Codes doubt{};
-    cut(fan, rays, live, doubt, taken, cells);
+    cut<lanes>(fan, rays, live, doubt, taken, cells);
     special |= live & doubt;
     live &= ~doubt;
   }
-  if (ends.skips) leaveOut(ends, rays, taken, cells);
-  if (fan.bounded || ends.skips) {
-    live &= cells > 0.0;
-    Doubles crossings[3] = {either(live, taken[0], Doubles{}), either(live, taken[1], Doubles{}),
-                            either(live, taken[2], Doubles{})};
-    addRepeatedlyLanes(rays.next, rays.delta, crossings);
-  }
+  if (ends.skips) leaveOut<lanes>(ends, at, rays, taken, cells);
+  live &= cells > 0.0;
 
   Codes mirror{};
+  Codes exact = live;
   for (std::size_t i = 0; i < 3; ++i) {
-    const Codes steps = toCodes(either(live, taken[i], Doubles{}));
+    const Doubles done = either(live, taken[i], Doubles{});
+    exact &= done == 0.0;
+    const Codes steps = toCodes(done);
     const Codes signed_steps = (steps ^ rays.backward[i]) - rays.backward[i];
     const Codes local = (fan.axes[i].local + signed_steps) & 0xFFFF;
     const Codes flipped = rays.backward[i] & fan.mirror_places & kAxisPlaces[i];
     mirror |= flipped;
-    batch.start.place[i] = ((dilateLanes(local) << static_cast<Code>(i)) ^ flipped) | ~kAxisPlaces[i];
-    batch.start.next[i] = rays.next[i];
-    batch.start.delta[i] = rays.delta[i];
+    const Codes place = ((dilateLanes(local) << static_cast<Code>(i)) ^ flipped) | ~kAxisPlaces[i];
+    // An axis without a crossing has none taken, and an endless `delta`: it stays as it is.
+    const Doubles next = either(done == 0.0, rays.next[i], rays.next[i] + done * rays.delta[i]);
+    store(place, batch.place[i] + at);
+    store(next, batch.next[i] + at);
+    store(rays.delta[i], batch.delta[i] + at);
   }
-  batch.start.mirror = mirror;
-  const Ints whole = __builtin_convertvector(either(live, cells, Doubles{}), Ints);
-  for (std::size_t lane = 0; lane < kLanes; ++lane) {
-    batch.cells[lane] = whole[lane];
-    if (live[lane] != 0) batch.state[lane] = RayBatch::State::ready;
-    if (special[lane] != 0) batch.state[lane] = RayBatch::State::special;
-  }
+  store(mirror, batch.mirror + at);
+  store(either(exact, Doubles{} - 1.0, margin), batch.margin + at);
+  const Codes whole = toCodes(either(live, cells, Doubles{}));
+  store(special | whole, batch.cells + at);  // a mask that is set is kSpecial
 }
 
-void prepareBaseline(const RayFan& fan, const Ends& ends, RayBatch& batch) {
-  prepare(fan, ends, batch);
+void prepareBaseline(const RayFan& fan, const RayEnds& ends, std::size_t at, RayBatch& batch) {
+  prepare<kNarrowLanes>(fan, ends, at, batch);
 }
 
-HOCTOMAP_TARGET_AVX2 void prepareAvx2(const RayFan& fan, const Ends& ends, RayBatch& batch) {
-  prepare(fan, ends, batch);
+HOCTOMAP_TARGET_AVX2 void prepareAvx2(const RayFan& fan, const RayEnds& ends, std::size_t at,
+                                      RayBatch& batch) {
+  prepare<kNarrowLanes>(fan, ends, at, batch);
 }
 
 }  // namespace
@@ -279,20 +286,8 @@ RayFan::RayFan(const VoxelGrid& grid, const Eigen::Vector3f& origin, const KeyBo
   }
 }
 
-void placeRay(const RayFan& fan, const Ray& ray, const Stretch& stretch, Traversals& start) {
-  start.mirror[0] = 0;
-  for (std::size_t i = 0; i < 3; ++i) {
-    const std::int64_t local = fan.axes[i].local + ray.step[i] * stretch.start.taken[i];
-    const Code mirrored = ray.step[i] < 0 ? fan.mirror_places & kAxisPlaces[i] : 0;
-    start.next[i][0] = stretch.start.next[i];
-    start.delta[i][0] = ray.delta[i];
-    start.place[i][0] = ((dilate(static_cast<int>(local)) << i) ^ mirrored) | ~kAxisPlaces[i];
-    start.mirror[0] |= mirrored;
-  }
-}
-
-PrepareRays choosePrepareRays(bool best_instructions) {
-  return best_instructions && hasAvx2() ? &prepareAvx2 : &prepareBaseline;
+PrepareRays choosePreparation(InstructionSet set) {
+  return set == InstructionSet::baseline ? &prepareBaseline : &prepareAvx2;
 }
 
 }  // namespace hoctomap::engine

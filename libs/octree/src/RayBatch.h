@@ -1,10 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include <span>
-
-#include "RayMarker.h"
+#include "Lanes.h"
 #include "RayTraversal.h"
+#include "VoxelBits.h"
 
 namespace hoctomap::engine {
 
@@ -32,34 +31,42 @@ struct RayFan {
   std::int64_t mirror_places;  ///< places of the frame's codes
 };
 
-/// Four rays made ready for the marker.
-struct RayBatch {
-  enum class State : std::uint8_t {
-    none,     ///< no cell to mark
-    ready,    ///< `cells` cells from `start`
-    special,  ///< needs the exact path: not regular, or too close to a tie to be sure without exact times
-  };
-  Traversals start;
-  std::array<State, kLanes> state;
-  std::array<int, kLanes> cells;
-};
+/// Rays that are prepared, then marked, at a time: they stay in the cache.
+inline constexpr std::size_t kBatch = 256;
 
-/// Sets lane 0 of `start` to a stretch found by the exact path.
-void placeRay(const RayFan& fan, const Ray& ray, const Stretch& stretch, Traversals& start);
-
-/// Four endpoints, and what needs no walk.
-struct Ends {
-  std::array<Eigen::Vector3f, kLanes> points;
+/// The ends of a batch of rays.
+struct RayEnds {
   std::size_t count = 0;
+  float end[3][kBatch];  ///< metres, by axis
   /// The cells that a ray visits before so many steps along an axis may be left out. Only for an origin
   /// inside the box.
-  std::array<int, kLanes> skip_steps;
-  std::array<std::size_t, kLanes> skip_axis;
-  bool skips = false;  ///< whether any ray has such steps; else they are not set
+  double skip_steps[kBatch];
+  Code skip_axis[kBatch];
+  bool skips = false;  ///< whether any ray has such steps; else they are not read
 };
 
-/// Prepares the rays to the first `ends.count` (1 to 4) endpoints.
-using PrepareRays = void (*)(const RayFan&, const Ends& ends, RayBatch&);
-[[nodiscard]] PrepareRays choosePrepareRays(bool best_instructions);
+/// Rays ready for marking.
+///
+/// Times that are not octomap's to the last bit, because a ray starts in mid-ray, differ from those by less
+/// than half of `margin`: their order is the same as long as they are further apart.
+struct RayBatch {
+  static constexpr Code kSpecial = -1;
+
+  double next[3][kBatch];  ///< of the first cell, by axis: see Ray
+  double delta[3][kBatch];
+  /// Every axis counts upwards: one that the ray goes down is mirrored (all its bits inverted), and `mirror`
+  /// turns the cell back. Mirrored dilated coordinates at their axis' places, all other bits set.
+  Code place[3][kBatch];
+  Code mirror[kBatch];
+  double margin[kBatch];  ///< metres; negative for times that are exact
+  /// To be marked. 0: none. kSpecial: the ray needs the exact path, because it is not regular, or too close
+  /// to a tie to be sure without exact times.
+  Code cells[kBatch];
+};
+
+/// Prepares the rays [at, at + kNarrowLanes) of a batch; those beyond `ends.count` have no cells. (More lanes
+/// are no gain: GCC 12 takes masks of AVX-512 apart.)
+using PrepareRays = void (*)(const RayFan&, const RayEnds& ends, std::size_t at, RayBatch&);
+[[nodiscard]] PrepareRays choosePreparation(InstructionSet set);
 
 }  // namespace hoctomap::engine

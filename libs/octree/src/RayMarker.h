@@ -2,39 +2,45 @@
 #pragma once
 
 #include <array>
+#include <span>
+#include <vector>
 
-#include "Lanes.h"
-#include "VoxelBits.h"
+#include "RayBatch.h"
 
 namespace hoctomap::engine {
 
-/// The state of four traversals, by axis. Every axis counts upwards: one that the ray goes down is mirrored
-/// (all its bits inverted), and `mirror` turns the cell back.
-struct Traversals {
-  Doubles next[3];
-  Doubles delta[3];
-  Codes place[3];  ///< mirrored dilated coordinates at their axis' places, all other bits set
-  Codes mirror;    ///< the axes' places that are mirrored
-};
-
-/// Marks the cells of regular rays, four rays at a time in lockstep: their chains of dependent operations
-/// overlap, and one vector instruction serves four.
+/// Marks the free cells of rays, many at a time: a batch is prepared, ordered by length, and marked in
+/// lockstep.
 class RayMarker {
  public:
-  /// @param best_instructions false: only those that every processor of the architecture has.
-  RayMarker(VoxelBits& bits, bool best_instructions);
+  RayMarker(const RayFan& fan, VoxelBits& bits, InstructionSet set);
 
-  /// Marks `cells` (at least 1) cells of the traversal `from[lane]`, now or by the time of `finish`.
-  void add(const Traversals& from, std::size_t lane, int cells);
+  /// Marks the cells before `end`, now or by the time of `finish`. The cells that the ray visits before so
+  /// many steps along an axis may be left out.
+  void add(const Eigen::Vector3f& end, std::size_t skip_axis = 0, int skip_steps = 0);
 
   void finish();
 
+  /// The ends of rays that need the exact path; whole once `finish` has been called.
+  [[nodiscard]] std::span<const Eigen::Vector3f> special() const { return special_; }
+
  private:
+  using Order = std::array<std::uint16_t, kBatch>;  ///< rays of a batch
+
+  void markBatch();
+  std::size_t orderByLength(Order& order);
+  void addSpecial(std::size_t ray);
+
+  const RayFan& fan_;
   VoxelBits& bits_;
-  void (*run_)(Traversals&, BlockBits*, std::uint8_t*, int cells);
-  Traversals lanes_{};
-  std::array<int, kLanes> cells_left_{};
-  std::size_t used_ = 0;
+  PrepareRays prepare_;
+  std::size_t lanes_;
+  /// Marks the cells of so many rays. False if two of the times are too close to tell
+  /// their order without exact times: then some cells are not marked.
+  bool (*mark_)(const RayBatch&, const std::uint16_t* rays, BlockBits* words, std::uint8_t* pages);
+  RayEnds ends_;
+  RayBatch batch_;
+  std::vector<Eigen::Vector3f> special_;
 };
 
 }  // namespace hoctomap::engine

@@ -78,6 +78,20 @@ inline Stretch wholeRay(const Ray& ray) {
   return {{{0, 0, 0}, ray.next}, ray.cells()};
 }
 
+/// The cells of a stretch of a regular ray: calls `visit(key)` for each.
+template <class Visit>
+void walkStretch(const Ray& ray, const Stretch& stretch, Visit&& visit) {
+  Key key = ray.origin;
+  for (std::size_t i = 0; i < 3; ++i) key[i] += ray.step[i] * stretch.start.taken[i];
+  std::array<double, 3> next = stretch.start.next;
+  for (int cell = 0; cell < stretch.cells; ++cell) {
+    visit(key);
+    const std::size_t axis = nextAxis(next);
+    key[axis] += ray.step[axis];
+    next[axis] += ray.delta[axis];
+  }
+}
+
 /// octomap's own loop, for the few rays that are not regular: calls `visit(key)` for each free cell.
 /// Keys wrap at the end of the key range as octomap's do.
 template <class Visit>

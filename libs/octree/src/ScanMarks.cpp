@@ -9,19 +9,19 @@ namespace hoctomap::engine {
 
 using Eigen::Vector3f;
 
-ScanMarks::ScanMarks(const ScanBeams& scan, const KeyBox& box, bool bounded, bool best_instructions,
+ScanMarks::ScanMarks(const ScanBeams& scan, const KeyBox& box, bool bounded, InstructionSet set,
                      Scratch& scratch)
     : scan_(scan),
       box_(box),
       bounded_(bounded),
       frame_(box),
       scratch_(scratch),
-      caster_(scan.grid(), scan.origin()),
-      prepare_(choosePrepareRays(best_instructions)),
-      marker_(scratch.free, best_instructions) {
+      caster_(scan.grid(), scan.origin()) {
   scratch_.free.open(frame_);
   scratch_.occupied.open(frame_);
-  if (caster_.originValid()) fan_.emplace(scan.grid(), scan.origin(), box_, frame_, bounded_);
+  if (!caster_.originValid()) return;
+  fan_.emplace(scan.grid(), scan.origin(), box_, frame_, bounded_);
+  marker_.emplace(*fan_, scratch_.free, set);
 }
 
 ScanMarks::~ScanMarks() {
@@ -49,61 +49,28 @@ void ScanMarks::addPassing(std::span<const Vector3f> points) {
 void ScanMarks::addBeams(std::span<const Vector3f> points) {
   if (!fan_) return;
   if (!box_.contains(caster_.originKey()) || !isDense(scan_, points)) {
-    addSpread(points.size(),
-              [&](std::size_t i, Ends& ends) { ends.points[ends.count++] = scan_.end(points[i]); });
+    for (const Vector3f& p : points) marker_->add(scan_.end(p));
     return;
   }
   const std::vector<AimedBeam> beams = orderByDirection(scan_, points);
   if (!reach_) reach_.emplace(scan_.grid(), scan_.origin(), frame_, scratch_.free);
-  const auto addOneIn = [&](std::size_t stride, std::size_t first) {
-    if (beams.size() <= first) return;
-    reach_->refresh();
-    addSpread((beams.size() - first + stride - 1) / stride, [&](std::size_t i, Ends& ends) {
-      const AimedBeam& beam = beams[first + i * stride];
-      const int steps = reach_->stepsMarked(beam.direction);
-      ends.points[ends.count] = beam.end;
-      ends.skip_steps[ends.count] = steps;
-      ends.skip_axis[ends.count] = MarkedReach::axisOf(beam.direction);
-      ends.skips |= steps > 0;
-      ++ends.count;
-    });
-  };
   // Few beams in all directions first, then those between them.
-  constexpr std::size_t kCoarsest = 32;
-  addOneIn(kCoarsest, 0);
-  for (std::size_t stride = kCoarsest; stride > 1; stride /= 2) addOneIn(stride, stride / 2);
-}
-
-/// Adds beams four at a time from the four quarters of a list: rays marked at the same time should not be
-/// neighbours, or they wait for each other's writes to the same word.
-template <class BeamAt>
-void ScanMarks::addSpread(std::size_t count, BeamAt&& beamAt) {
-  const std::size_t part = (count + kLanes - 1) / kLanes;
-  for (std::size_t i = 0; i < part; ++i) {
-    Ends ends;
-    for (std::size_t j = i; j < count; j += part) beamAt(j, ends);
-    addRays(ends);
-  }
-}
-
-void ScanMarks::addRays(const Ends& ends) {
-  RayBatch batch;
-  prepare_(*fan_, ends, batch);
-  for (std::size_t lane = 0; lane < ends.count; ++lane) {
-    switch (batch.state[lane]) {
-      case RayBatch::State::none:
-        break;
-      case RayBatch::State::ready:
-        marker_.add(batch.start, lane, batch.cells[lane]);
-        break;
-      case RayBatch::State::special:
-        addSpecial(ends.points[lane]);
-        break;
+  constexpr std::size_t kCoarsest = 16;
+  constexpr std::size_t kFiner = 4;
+  for (std::size_t i = 0; i < beams.size(); i += kCoarsest) marker_->add(beams[i].end);
+  for (std::size_t known = kCoarsest; known > 1; known /= kFiner) {
+    marker_->finish();
+    reach_->refresh();
+    for (std::size_t i = 0; i < beams.size(); i += known / kFiner) {
+      if (i % known == 0) continue;
+      const AimedBeam& beam = beams[i];
+      marker_->add(beam.end, MarkedReach::axisOf(beam.direction), reach_->stepsMarked(beam.direction));
     }
   }
 }
 
-void ScanMarks::addSpecial(const Vector3f& end) {
+/// A ray that cannot be marked with others, or not for certain.
+void ScanMarks::addExactly(const Vector3f& end) {
   Key key;
   if (!scan_.grid().checkedKey(end, key)) return;
   const Ray ray = caster_.prepare(end, key);
@@ -112,14 +79,15 @@ void ScanMarks::addSpecial(const Vector3f& end) {
       if (box_.contains(k)) addFree(k);
     });
   } else if (const auto inside = clipRegularRay(ray, box_)) {
-    Traversals start;
-    placeRay(*fan_, ray, *inside, start);
-    marker_.add(start, 0, inside->cells);
+    walkStretch(ray, *inside, [this](const Key& k) { addFree(k); });
   }
 }
 
 void ScanMarks::finish() {
-  marker_.finish();
+  if (marker_) {
+    marker_->finish();
+    for (const Vector3f& end : marker_->special()) addExactly(end);
+  }
   scratch_.free.unflagEmptyPages();
 }
 

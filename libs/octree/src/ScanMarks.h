@@ -6,8 +6,8 @@
 
 #include "BlockView.h"
 #include "MarkedReach.h"
-#include "RayBatch.h"
 #include "RayClip.h"
+#include "RayMarker.h"
 #include "ScanBeams.h"
 
 namespace hoctomap::engine {
@@ -22,7 +22,7 @@ struct Scratch {
 class ScanMarks {
  public:
   /// @param scratch empty, and left empty at the end.
-  ScanMarks(const ScanBeams& scan, const KeyBox& box, bool bounded, bool best_instructions, Scratch& scratch);
+  ScanMarks(const ScanBeams& scan, const KeyBox& box, bool bounded, InstructionSet set, Scratch& scratch);
   ScanMarks(const ScanMarks&) = delete;
   ScanMarks& operator=(const ScanMarks&) = delete;
   ScanMarks(ScanMarks&&) = delete;
@@ -44,10 +44,7 @@ class ScanMarks {
 
  private:
   void addBeams(std::span<const Eigen::Vector3f> points);
-  template <class BeamAt>
-  void addSpread(std::size_t count, BeamAt&& beamAt);
-  void addRays(const Ends& ends);
-  void addSpecial(const Eigen::Vector3f& end);
+  void addExactly(const Eigen::Vector3f& end);
 
   const ScanBeams& scan_;
   KeyBox box_;
@@ -56,8 +53,7 @@ class ScanMarks {
   Scratch& scratch_;
   std::optional<RayFan> fan_;  ///< none if the origin lies beyond the key range
   RayCaster caster_;
-  PrepareRays prepare_;
-  RayMarker marker_;
+  std::optional<RayMarker> marker_;   ///< as `fan_`
   std::optional<MarkedReach> reach_;  ///< for large scans from inside the box
 };
 

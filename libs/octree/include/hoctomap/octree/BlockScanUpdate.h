@@ -10,6 +10,7 @@ namespace hoctomap {
 /// Which machine code the ray traversal uses. The result is the same to the last bit.
 enum class Instructions {
   best,      ///< what this processor offers, found at run time
+  avx2,      ///< at most AVX2, if it is there
   baseline,  ///< what every processor of the architecture has
 };
 
