@@ -24,7 +24,7 @@ void addMeasureCommand(CLI::App& app, Action& action) {
       ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
   command->add_option("--resolution", task->resolution, "of the map (whole), of the objects (boxes)")
       ->type_name("M");
-  command->add_option("--threads", task->threads, "mapping: threads")->type_name("N");
+  command->add_option("--threads", task->threads, "whole, boxes, mapping: threads")->type_name("N");
   command->add_option("--far-nodes", task->far_nodes, "mapping: nodes that are there, out of view")
       ->type_name("N");
   command->add_option("--warm-up", task->warm_up, "mapping: first scans, not measured")->type_name("N");

@@ -6,7 +6,7 @@
 #include <limits>
 #include <random>
 
-#include "../../libs/octree/src/BeamOrder.h"
+#include "../../libs/octree/src/DenseScan.h"
 #include "../../libs/octree/src/RayTraversal.h"
 #include "block_scenes.h"
 #include "hoctomap/octree/BlockScanUpdate.h"
@@ -124,24 +124,22 @@ TEST(MarkedReach, GrowsWithTheMarks) {
   EXPECT_EQ(reach.stepsMarked(up), 64);
 }
 
-TEST(BeamOrder, IsByDirectionAndLeavesOutWhatHasNone) {
-  Random random(3);
-  std::vector<Vector3f> points;
-  for (int i = 0; i < 5000; ++i) points.push_back(random.point(100.0, 0.01));
-  Beams scene;
-  scene.origin = points[17];
-  points.push_back({std::numeric_limits<float>::infinity(), 0, 0});
-  points.push_back({0, std::numeric_limits<float>::quiet_NaN(), 0});
-  scene.hits = points;
-  const VoxelGrid grid(0.01);
-  const ScanBeams scan(grid, scene);
-  const std::vector<AimedBeam> beams = orderByDirection(scan, points);
-  const auto here = std::count(points.begin(), points.end(), scene.origin);
-  ASSERT_EQ(beams.size(), 5000U - static_cast<std::size_t>(here));
-  for (std::size_t i = 0; i < beams.size(); ++i) {
-    EXPECT_EQ(beams[i].direction, directionOf(beams[i].end - scene.origin));
-    EXPECT_LE(beams[i == 0 ? 0 : i - 1].direction, beams[i].direction);
+TEST(DenseScan, RoundsAreDrawnEvenly) {
+  // Of any beams at equal distances, too: of one column of an image, say.
+  for (const std::size_t stride : {1U, 2U, 16U, 320U, 640U, 641U, 1024U}) {
+    std::array<double, kRounds.size()> beams{};
+    constexpr std::size_t kBeams = 4000;
+    for (std::size_t i = 0; i < kBeams; ++i) beams[roundOf(i * stride)] += 1.0 / kBeams;
+    EXPECT_NEAR(beams[0], 2.0 / 32.0, 0.02) << stride;
+    EXPECT_NEAR(beams[1], 6.0 / 32.0, 0.02) << stride;
   }
+}
+
+TEST(DenseScan, SomeBeamsHaveNoDirection) {
+  EXPECT_TRUE(hasDirection({0.0F, 0.0F, -1e-6F}));
+  EXPECT_FALSE(hasDirection({0.0F, 0.0F, 0.0F}));
+  EXPECT_FALSE(hasDirection({std::numeric_limits<float>::infinity(), 0.0F, 0.0F}));
+  EXPECT_FALSE(hasDirection({0.0F, std::numeric_limits<float>::quiet_NaN(), 0.0F}));
 }
 
 /// Rays over a rectangle of directions, to depths with steps in them, some of them short: dense enough.

@@ -33,6 +33,11 @@ octomap::OcTree makeTree(double resolution, const LabelProfile& profile) {
   return tree;
 }
 
+/// As many threads as the task says, while this lives.
+tbb::global_control threadsOf(const Task& task) {
+  return {tbb::global_control::max_allowed_parallelism, static_cast<std::size_t>(task.threads)};
+}
+
 std::unique_ptr<ScanUpdate> boxEngine(const Task& task, const Settings& settings) {
   if (task.variant == "stock") return makeStockBoxUpdate();
   if (task.variant == "filtering") return makeReferenceScanUpdate();
@@ -61,6 +66,7 @@ Figures measureWhole(const Task& task) {
   if (task.variant != "stock" && task.variant != "ours") {
     throw ConfigError("whole: variant stock or ours, not '" + task.variant + "'");
   }
+  const tbb::global_control threads = threadsOf(task);
   const Settings settings = loadSettings(task.config, task.overrides);
   const double max_range = settings.mappingConfig().max_range;
   const auto engine = ourEngine(settings);
@@ -110,6 +116,7 @@ Figures measureCells(const Task& task) {
 }
 
 Figures measureBoxes(const Task& task) {
+  const tbb::global_control threads = threadsOf(task);
   Task adapted = task;
   adapted.overrides.push_back("label.object.resolution=" + numberText(task.resolution));
   const Settings settings = loadSettings(adapted.config, adapted.overrides);

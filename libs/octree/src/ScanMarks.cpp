@@ -3,7 +3,7 @@
 
 #include <algorithm>
 
-#include "BeamOrder.h"
+#include "DenseScan.h"
 
 namespace hoctomap::engine {
 
@@ -36,8 +36,11 @@ void ScanMarks::addHits(std::span<const Vector3f> points) {
 
 void ScanMarks::addEndpoints(std::span<const Vector3f> points) {
   Key key;
+  Key before{-1, -1, -1};
   for (const Vector3f& p : points) {
     if (scan_.isTooLong(p) || !scan_.grid().checkedKey(p, key)) continue;
+    if (key == before) continue;  // neighbours in the scan often share a voxel
+    before = key;
     if (box_.contains(key)) scratch_.occupied.mark(frame_.localCode(key));
   }
 }
@@ -52,19 +55,17 @@ void ScanMarks::addBeams(std::span<const Vector3f> points) {
     for (const Vector3f& p : points) marker_->add(scan_.end(p));
     return;
   }
-  const std::vector<AimedBeam> beams = orderByDirection(scan_, points);
   if (!reach_) reach_.emplace(scan_.grid(), scan_.origin(), frame_, scratch_.free);
-  // Few beams in all directions first, then those between them.
-  constexpr std::size_t kCoarsest = 16;
-  constexpr std::size_t kFiner = 4;
-  for (std::size_t i = 0; i < beams.size(); i += kCoarsest) marker_->add(beams[i].end);
-  for (std::size_t known = kCoarsest; known > 1; known /= kFiner) {
+  for (std::size_t round = 0; round < kRounds.size(); ++round) {
     marker_->finish();
     reach_->refresh();
-    for (std::size_t i = 0; i < beams.size(); i += known / kFiner) {
-      if (i % known == 0) continue;
-      const AimedBeam& beam = beams[i];
-      marker_->add(beam.end, MarkedReach::axisOf(beam.direction), reach_->stepsMarked(beam.direction));
+    for (std::size_t i = 0; i < points.size(); ++i) {
+      if (roundOf(i) != round) continue;
+      const Vector3f way = points[i] - scan_.origin();
+      if (!hasDirection(way)) continue;
+      const Direction direction = directionOf(way);
+      const int steps = round == 0 ? 0 : reach_->stepsMarked(direction);
+      marker_->add(scan_.end(points[i]), MarkedReach::axisOf(direction), steps);
     }
   }
 }

@@ -3,6 +3,8 @@
 
 #include <octomap/OcTree.h>
 
+#include <cstdint>
+
 namespace hoctomap::engine {
 
 /// What octomap keeps protected and a bulk update needs. A derived class may name these members; no object of
@@ -21,5 +23,29 @@ class TreeAccess : public octomap::OcTree {
   static std::size_t& sizeOf(octomap::OcTree& tree) { return tree.*(&TreeAccess::tree_size); }
   static bool& sizeChanged(octomap::OcTree& tree) { return tree.*(&TreeAccess::size_changed); }
 };
+
+using Node = octomap::OcTreeNode;
+
+inline constexpr unsigned kTreeLevels = 16;
+inline constexpr unsigned kOctants = 8;
+
+inline Node* child(Node& node, unsigned octant) {
+  auto* const* children = NodeAccess::childrenOf(node);
+  return children == nullptr ? nullptr : static_cast<Node*>(children[octant]);
+}
+
+inline bool hasChildren(Node& node) {
+  auto* const* children = NodeAccess::childrenOf(node);
+  if (children == nullptr) return false;
+  std::uintptr_t any = 0;  // without a branch for each
+  for (unsigned i = 0; i < kOctants; ++i) any |= reinterpret_cast<std::uintptr_t>(children[i]);
+  return any != 0;
+}
+
+inline octomap::AbstractOcTreeNode** childrenOrNew(Node& node) {
+  auto**& children = NodeAccess::childrenOf(node);
+  if (children == nullptr) children = new octomap::AbstractOcTreeNode*[kOctants]();
+  return children;
+}
 
 }  // namespace hoctomap::engine
