@@ -12,7 +12,9 @@ set(CMAKE_EXPORT_COMPILE_COMMANDS ON)
 
 find_program(HOCTOMAP_CCACHE ccache)
 if(HOCTOMAP_CCACHE AND NOT CMAKE_CXX_COMPILER_LAUNCHER)
-  set(CMAKE_CXX_COMPILER_LAUNCHER "${HOCTOMAP_CCACHE}")
+  # Without these ccache does not store what is compiled with precompiled headers.
+  set(CMAKE_CXX_COMPILER_LAUNCHER
+    "${CMAKE_COMMAND}" -E env CCACHE_SLOPPINESS=pch_defines,time_macros "${HOCTOMAP_CCACHE}")
 endif()
 
 # Lines in stack traces and profiles; what -g writes beyond takes a quarter of the compile time.
