@@ -84,7 +84,11 @@ Figures measureWhole(const Task& task) {
     if (task.variant == "stock") {
       insertStock(tree, stock_scans[i], max_range);
     } else {
-      engine->apply(tree, {scans[i].origin().cast<float>(), scans[i].world_points, {}, max_range, {}});
+      Beams beams;
+      beams.origin = scans[i].origin().cast<float>();
+      beams.hits = scans[i].world_points;
+      beams.max_range = max_range;
+      engine->apply(tree, beams);
     }
   }
   const Elapsed elapsed = watch.elapsed();
@@ -119,6 +123,7 @@ Figures measureBoxes(const Task& task) {
   const tbb::global_control threads = threadsOf(task);
   Task adapted = task;
   adapted.overrides.push_back("label.object.resolution=" + numberText(task.resolution));
+  adapted.overrides.emplace_back("label.object.grazing=clear");  // all that stock OctoMap knows
   const Settings settings = loadSettings(adapted.config, adapted.overrides);
   const auto engine = boxEngine(task, settings);
   const BeamRecord record = recordObjects(task, settings, readScans(task.scans));

@@ -36,11 +36,8 @@ void ScanMarks::addHits(std::span<const Vector3f> points) {
 
 void ScanMarks::addEndpoints(std::span<const Vector3f> points) {
   Key key;
-  Key before{-1, -1, -1};
   for (const Vector3f& p : points) {
     if (scan_.isTooLong(p) || !scan_.grid().checkedKey(p, key)) continue;
-    if (key == before) continue;  // neighbours in the scan often share a voxel
-    before = key;
     if (box_.contains(key)) scratch_.occupied.mark(frame_.localCode(key));
   }
 }
