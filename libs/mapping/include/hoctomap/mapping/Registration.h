@@ -4,6 +4,7 @@
 #include <Eigen/Geometry>
 #include <functional>
 #include <span>
+#include <vector>
 
 namespace hoctomap {
 
@@ -42,15 +43,19 @@ struct Registration {
   double overlap_seen = 0.0;   ///< share of the seen points that the model can show near one of its points
   double explained = 0.0;      ///< share of all seen points near a point of the model
   double rms = 0.0;            ///< m, of the overlapping points
+  double outline_error = 0.0;  ///< m, root mean square distance of the edges that meet; 0 if none do
   double seen_through = 0.0;   ///< share of the model's points that the scan contradicts
   double rest_score = 0.0;     ///< the score without any motion
   double score = 0.0;          ///< the smaller of the two overlaps
+  /// rad about the vertical, to be added to that of `motion`: turns that fit as well. What is nearly square
+  /// may have made a quarter turn, what is round any.
+  std::vector<double> other_turns;
 };
 
 /// Registers the points of a known object to points that may show it elsewhere (III-D): turns about the
 /// vertical about aligned centroids, trimmed iterated closest points (Chetverikov et al. 2002), the best of
-/// them refined in six degrees of freedom. Points of the model that the scan cannot show at the new place do
-/// not count.
+/// them refined, in six degrees of freedom if that fits better. Points of the model that the scan cannot show
+/// at the new place do not count.
 /// @param model_world  surface points of the object where it was, m
 /// @param seen_world   points that the scan shows, m
 /// @param sight        what the scan says of a place (world); null: everything is visible
