@@ -10,9 +10,9 @@ namespace {
 
 constexpr double kTrimmed = 0.85;  // share of the pairs that is believed
 constexpr std::size_t kLeastPairs = 6;
-constexpr float kBeyond = 0.01F;     // m beyond an edge, where nothing of the object must be
-constexpr float kOneSide = 0.7F;     // cosine between normals of one side of an object
-constexpr float kOverEdge = 0.003F;  // m beyond an edge, less is the spacing of the points
+constexpr float kBeyond = 0.01F;    // m beyond an edge, where nothing of the object must be
+constexpr float kOneSide = 0.7F;    // cosine between normals of one side of an object
+constexpr float kOverEdge = 0.75F;  // spacings beyond an edge: less is chance
 
 /// Every how many of `size` points make about `samples` of them.
 std::size_t strideFor(std::size_t size, std::size_t samples) {
@@ -174,7 +174,7 @@ std::optional<Eigen::Vector3f> ClosestPoints::edgeOf(const Pair& pair,
   if (asked_end && of_model.dot(of_seen) >= kOneSide) return edge;
   const Eigen::Vector3f gap = seen_.points()[pair.seen] - motion * model_.points()[pair.model];
   const float beyond = pair.asked_seen ? gap.dot(edge) : -gap.dot(edge);
-  if (beyond < kOverEdge) return std::nullopt;
+  if (beyond < kOverEdge * std::max(model_.spacing(), seen_.spacing())) return std::nullopt;
   return edge;
 }
 
@@ -228,7 +228,10 @@ double ClosestPoints::outlineError(const Eigen::Isometry3f& motion, float radius
     const auto q = seen_.nearest(at, radius);
     if (q && !isHidden(at)) count({i, q->index, 0.0F, false});
   }
-  return rows < kLeastPairs ? 0.0 : std::sqrt(squares / static_cast<double>(rows));
+  // Few of them are chance.
+  constexpr double kOutlinePoints = 0.03;  // of all points
+  const double least = kOutlinePoints * static_cast<double>(model_.size() + seen_.size());
+  return std::sqrt(squares / std::max(static_cast<double>(rows), least));
 }
 
 }  // namespace hoctomap

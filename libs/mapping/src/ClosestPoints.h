@@ -46,7 +46,8 @@ class ClosestPoints {
   [[nodiscard]] Eigen::Isometry3f refined(Eigen::Isometry3f motion, int steps, float near, Freedom freedom,
                                           std::size_t samples) const;
 
-  /// How far the outlines are apart where they are within `radius`: root mean square, m; 0 if none meet.
+  /// How far the outlines are apart where they are within `radius`: root mean square, m; less if few
+  /// of them meet, 0 if none do.
   [[nodiscard]] double outlineError(const Eigen::Isometry3f& motion, float radius) const;
 
  private:

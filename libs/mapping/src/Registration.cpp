@@ -51,6 +51,10 @@ class Registrar {
       return rest;
     }
     const Registration* best = &*std::max_element(candidates.begin(), candidates.end(), fitsWorse);
+    if (getenv("HB_DEBUG")) {
+      fprintf(stderr, "REG model %zu (sp %.4f) seen %zu (sp %.4f) rest %.3f near %.4f\n", model_.size(), model_.spacing(), seen_.size(), seen_.spacing(), rest.score, near_);
+      for (auto& c : candidates) dump(c);
+    }
     // A round thing fits at any turn: the one it had is kept.
     for (const Registration& c : candidates) {
       if (isRival(c, *best) && turn(c.motion) < turn(best->motion) - kOtherTurn) best = &c;
@@ -59,6 +63,7 @@ class Registrar {
     for (const Registration& c : candidates) {
       if (&c != best && isRival(c, *best)) result.other_turns.push_back(yaw(c.motion) - yaw(result.motion));
     }
+    if (getenv("HB_DEBUG")) dump(result);
     result.rest_score = rest.score;
     return result;
   }
@@ -79,6 +84,10 @@ class Registrar {
     return r.verdict == best.verdict && quality(r) >= quality(best) - config_.rival_score;
   }
 
+  static void dump(const Registration& c) {
+      Eigen::Vector3d t = c.motion.translation();
+      fprintf(stderr, "  yaw %.2f turn %.2f t %.4f %.4f %.4f score %.3f (m %.3f s %.3f) expl %.3f rms %.5f out %.5f thr %.3f verdict %d Q %.4f\n", yaw(c.motion)*57.2958, turn(c.motion)*57.2958, t.x(),t.y(),t.z(), c.score, c.overlap_model, c.overlap_seen, c.explained, c.rms, c.outline_error, c.seen_through, int(c.verdict), quality(c));
+  }
   static double turn(const Eigen::Isometry3d& motion) { return Eigen::AngleAxisd(motion.rotation()).angle(); }
   static double yaw(const Eigen::Isometry3d& motion) { return std::atan2(motion(1, 0), motion(0, 0)); }
 
@@ -124,12 +133,19 @@ class Registrar {
     for (const Start& start : starts) {
       // Even a side that was never seen lies near one that was at its edge.
       if (best.size() == kRefinedStarts || start.distance > 0.6F * far) break;
-      const bool is_new = std::none_of(best.begin(), best.end(), [&](const auto& other) {
-        return start.motion.isApprox(other, 1e-2F);  // several starts end in one place
-      });
+      const bool is_new = std::none_of(best.begin(), best.end(),
+                                       [&](const auto& other) { return endTogether(start.motion, other); });
       if (is_new) best.push_back(start.motion);
     }
     return best;
+  }
+
+  /// Several starts end in one place.
+  [[nodiscard]] bool endTogether(const Eigen::Isometry3f& a, const Eigen::Isometry3f& b) const {
+    constexpr float kShift = 0.01F;  // m
+    constexpr double kTurn = 0.1;    // rad
+    return (a * model_.centroid() - b * model_.centroid()).norm() < kShift &&
+           turn((a.inverse() * b).cast<double>()) < kTurn;
   }
 
   [[nodiscard]] Registration judged(const Eigen::Isometry3f& motion, std::size_t samples) const {

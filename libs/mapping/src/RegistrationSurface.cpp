@@ -26,10 +26,25 @@ RegistrationSurface::RegistrationSurface(std::span<const Eigen::Vector3f> world_
     centroid_ += p / static_cast<float>(size());
     highest_ = std::max(highest_, p.z());
   }
-  describe(2.5F * static_cast<float>(spacing));
+  measureSpacing(static_cast<float>(spacing));
+  describe();
 }
 
-void RegistrationSurface::describe(float radius) {
+void RegistrationSurface::measureSpacing(float least) {
+  // On a square grid the fourth neighbour is one spacing away.
+  constexpr std::size_t kSample = 60;
+  std::vector<float> distances;
+  for (std::size_t i = 0; i < size(); i += std::max<std::size_t>(1, size() / kSample))
+    distances.push_back(surface_.distanceToNeighbour(points()[i], 4));
+  spacing_ = least;
+  if (distances.empty()) return;
+  const auto middle = distances.begin() + static_cast<std::ptrdiff_t>(distances.size() / 2);
+  std::nth_element(distances.begin(), middle, distances.end());
+  spacing_ = std::max(least, *middle);
+}
+
+void RegistrationSurface::describe() {
+  const float radius = 2.5F * spacing_;
   // The mean of a half disc is 0.42 radii from the middle of its straight edge.
   constexpr float kAtEdge = 0.25F;
   normals_.reserve(size());

@@ -23,6 +23,8 @@ class RegistrationSurface {
   [[nodiscard]] const Eigen::Vector3f& origin() const { return origin_; }
   [[nodiscard]] const Eigen::Vector3f& centroid() const { return centroid_; }
   [[nodiscard]] float highest() const { return highest_; }
+  /// m, between neighbouring points: at least that asked for, and more where less was seen.
+  [[nodiscard]] float spacing() const { return spacing_; }
 
   /// Of the surface at a point; its sign means nothing.
   [[nodiscard]] const Eigen::Vector3f& normal(std::size_t i) const { return normals_[i]; }
@@ -35,13 +37,15 @@ class RegistrationSurface {
   }
 
  private:
-  void describe(float radius);
+  void measureSpacing(float least);
+  void describe();
 
   Eigen::Vector3f origin_;
   SurfacePoints surface_;
   std::vector<Eigen::Vector3f> normals_;
   std::vector<Eigen::Vector3f> outward_;
   Eigen::Vector3f centroid_ = Eigen::Vector3f::Zero();
+  float spacing_ = 0.0F;
   float highest_ = -std::numeric_limits<float>::infinity();
 };
 

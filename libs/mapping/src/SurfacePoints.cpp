@@ -2,6 +2,7 @@
 #include "SurfacePoints.h"
 
 #include <algorithm>
+#include <cmath>
 #include <cstdint>
 #include <utility>
 
@@ -47,6 +48,13 @@ std::optional<SurfacePoints::Neighbour> SurfacePoints::nearest(const Eigen::Vect
   tree_->findNeighbors(result, p.data(), nanoflann::SearchParams());
   if (index == points_.size() || squared_distance > radius * radius) return std::nullopt;
   return Neighbour{index, squared_distance};
+}
+
+float SurfacePoints::distanceToNeighbour(const Eigen::Vector3f& p, std::size_t n) const {
+  std::vector<std::uint32_t> indices(n + 1);
+  std::vector<float> squared_distances(n + 1);
+  const std::size_t found = tree_->knnSearch(p.data(), n + 1, indices.data(), squared_distances.data());
+  return found == 0 ? 0.0F : std::sqrt(squared_distances[found - 1]);
 }
 
 PointCloud worldSurface(const MapHierarchy& hierarchy, NodeId id) {

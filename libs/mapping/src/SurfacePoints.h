@@ -30,6 +30,8 @@ class SurfacePoints {
   };
   /// Nearest point; nothing if there is none within `radius`.
   [[nodiscard]] std::optional<Neighbour> nearest(const Eigen::Vector3f& p, float radius) const;
+  /// Distance of a point's n-th neighbour beside itself, m; of the last one if there are fewer.
+  [[nodiscard]] float distanceToNeighbour(const Eigen::Vector3f& p, std::size_t n) const;
   /// Calls `visit(index)` for every point within `radius`.
   template <typename Visit>
   void forPointsNear(const Eigen::Vector3f& p, float radius, const Visit& visit) const {
