@@ -70,7 +70,7 @@ ClosestPoints::ClosestPoints(const RegistrationSurface& model, const Registratio
   for (std::size_t i = 0; i < model.size(); ++i) {
     if (model.outward(i).isZero()) continue;
     const Eigen::Vector3f beyond = model.points()[i] + kBeyond * model.outward(i);
-    model_ends_[i] = !sight.before || sight.before(beyond + model.origin()) ? 1 : 0;
+    model_ends_[i] = !sight.was_shown || sight.was_shown(beyond + model.origin()) ? 1 : 0;
   }
   for (std::size_t i = 0; i < seen.size(); ++i) {
     if (seen.outward(i).isZero()) continue;

@@ -3,20 +3,13 @@
 
 #include <Eigen/Geometry>
 #include <cstdint>
-#include <functional>
+#include <optional>
 #include <vector>
 
 #include "RegistrationSurface.h"
 #include "hoctomap/mapping/Registration.h"
 
 namespace hoctomap {
-
-/// What a scan says of a place, and whether earlier ones would have shown a surface there (see
-/// `registerPoints`); places in the world. Either may be null.
-struct RegistrationSight {
-  std::function<Sight(const Eigen::Vector3f&)> now;
-  std::function<bool(const Eigen::Vector3f&)> before;
-};
 
 enum class Freedom { yaw_and_shift, rigid };
 

@@ -3,7 +3,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <numbers>
+#include <string>
 #include <vector>
 
 #include "ClosestPoints.h"
@@ -51,10 +53,6 @@ class Registrar {
       return rest;
     }
     const Registration* best = &*std::max_element(candidates.begin(), candidates.end(), fitsWorse);
-    if (getenv("HB_DEBUG")) {
-      fprintf(stderr, "REG model %zu (sp %.4f) seen %zu (sp %.4f) rest %.3f near %.4f\n", model_.size(), model_.spacing(), seen_.size(), seen_.spacing(), rest.score, near_);
-      for (auto& c : candidates) dump(c);
-    }
     // A round thing fits at any turn: the one it had is kept.
     for (const Registration& c : candidates) {
       if (isRival(c, *best) && turn(c.motion) < turn(best->motion) - kOtherTurn) best = &c;
@@ -63,7 +61,6 @@ class Registrar {
     for (const Registration& c : candidates) {
       if (&c != best && isRival(c, *best)) result.other_turns.push_back(yaw(c.motion) - yaw(result.motion));
     }
-    if (getenv("HB_DEBUG")) dump(result);
     result.rest_score = rest.score;
     return result;
   }
@@ -73,8 +70,8 @@ class Registrar {
 
   static double quality(const Registration& r) {
     constexpr double kOfRms = 20.0;      // per metre: breaks ties of overlaps that are all but complete
-    constexpr double kOfOutline = 20.0;  // per metre: sides that differ little differ in where they end
-    constexpr double kExplained = 0.5;   // lest a motion win by taking for new sides what it does not fit
+    constexpr double kOfOutline = 30.0;  // per metre: sides that differ little differ in where they end
+    constexpr double kExplained = 0.2;   // lest a motion win by taking for new sides what it does not fit
     return r.score + kExplained * r.explained - kOfRms * r.rms - kOfOutline * r.outline_error;
   }
   static bool fitsWorse(const Registration& a, const Registration& b) { return quality(a) < quality(b); }
@@ -84,10 +81,6 @@ class Registrar {
     return r.verdict == best.verdict && quality(r) >= quality(best) - config_.rival_score;
   }
 
-  static void dump(const Registration& c) {
-      Eigen::Vector3d t = c.motion.translation();
-      fprintf(stderr, "  yaw %.2f turn %.2f t %.4f %.4f %.4f score %.3f (m %.3f s %.3f) expl %.3f rms %.5f out %.5f thr %.3f verdict %d Q %.4f\n", yaw(c.motion)*57.2958, turn(c.motion)*57.2958, t.x(),t.y(),t.z(), c.score, c.overlap_model, c.overlap_seen, c.explained, c.rms, c.outline_error, c.seen_through, int(c.verdict), quality(c));
-  }
   static double turn(const Eigen::Isometry3d& motion) { return Eigen::AngleAxisd(motion.rotation()).angle(); }
   static double yaw(const Eigen::Isometry3d& motion) { return std::atan2(motion(1, 0), motion(0, 0)); }
 
@@ -163,7 +156,7 @@ class Registrar {
       const Eigen::Vector3f before = back * seen_.points()[i];
       const auto p = model_.nearest(before, near_);
       if (!p) {
-        if (sight_.before && !sight_.before(before + model_.origin())) ++new_sides;
+        new_sides += isNewSide(i, back) ? 1U : 0U;
         continue;
       }
       ++seen_near;
@@ -183,7 +176,7 @@ class Registrar {
         ++pairs;
         continue;
       }
-      const Sight sight = sight_.now ? sight_.now(p + seen_.origin()) : Sight::surface;
+      const Sight sight = sightOf(i, motion);
       if (sight == Sight::hidden) continue;
       ++model_missed;
       if (sight == Sight::seen_through) ++model_through;
@@ -198,6 +191,23 @@ class Registrar {
     r.outline_error = points_.outlineError(motion, 2.0F * near_);
     r.verdict = verdict(r, share(visible, model_asked), heightError(motion));
     return r;
+  }
+
+  /// Whether a seen point faces a way that nothing of the model does.
+  [[nodiscard]] bool isNewSide(std::size_t seen, const Eigen::Isometry3f& back) const {
+    if (!model_.isOriented() || seen_.facing(seen) == 0) return false;
+    return !model_.hasSide(static_cast<float>(seen_.facing(seen)) * (back.linear() * seen_.normal(seen)));
+  }
+
+  /// What the scan says of a point of the model.
+  [[nodiscard]] Sight sightOf(std::size_t model, const Eigen::Isometry3f& motion) const {
+    const Eigen::Vector3f p = motion * model_.points()[model] + seen_.origin();
+    if (sight_.origin && model_.facing(model) != 0) {
+      const Eigen::Vector3f to_sensor = sight_.origin->cast<float>() - p;
+      const Eigen::Vector3f normal = motion.linear() * model_.normal(model);
+      if (static_cast<float>(model_.facing(model)) * normal.dot(to_sensor) < 0.0F) return Sight::hidden;
+    }
+    return sight_.now ? sight_.now(p) : Sight::surface;
   }
 
   /// Difference of the tops, m.
@@ -252,13 +262,35 @@ Registration registerSurfaces(const RegistrationSurface& model, const Registrati
   return Registrar(model, seen, config, sight).best();
 }
 
+void orientModel(RegistrationSurface& model, const RegistrationSight& sight) {
+  if (!sight.origin || !sight.was_free) return;
+  const auto beside = static_cast<float>(sight.beside);
+  model.orient([&](const Eigen::Vector3f& p, const Eigen::Vector3f& normal) {
+    const bool over = sight.was_free(p + model.origin() + beside * normal);
+    const bool under = sight.was_free(p + model.origin() - beside * normal);
+    // Thin things, and such that stand among others: most surfaces face away from the middle.
+    if (over == under) return normal.dot(p - model.centroid()) > 0.0F ? 1 : -1;
+    return over ? 1 : -1;
+  });
+}
+
+void orientSeen(RegistrationSurface& seen, const RegistrationSight& sight) {
+  if (!sight.origin) return;
+  const Eigen::Vector3f origin = sight.origin->cast<float>() - seen.origin();
+  seen.orient([&](const Eigen::Vector3f& p, const Eigen::Vector3f& normal) {
+    return normal.dot(origin - p) > 0.0F ? 1 : -1;
+  });
+}
+
 Registration registerPoints(std::span<const Eigen::Vector3f> model_world,
                             std::span<const Eigen::Vector3f> seen_world, const RegistrationConfig& config,
-                            const std::function<Sight(const Eigen::Vector3f&)>& sight,
-                            const std::function<bool(const Eigen::Vector3f&)>& was_shown) {
+                            const RegistrationSight& sight) {
   if (model_world.empty() || seen_world.empty()) return {};
-  return registerSurfaces(RegistrationSurface(model_world, config.spacing),
-                          RegistrationSurface(seen_world, config.spacing), config, {sight, was_shown});
+  RegistrationSurface model(model_world, config.spacing);
+  RegistrationSurface seen(seen_world, config.spacing);
+  orientModel(model, sight);
+  orientSeen(seen, sight);
+  return registerSurfaces(model, seen, config, sight);
 }
 
 }  // namespace hoctomap
