@@ -191,12 +191,16 @@ class Finder {
 
   [[nodiscard]] bool hasMoved(const Registration& r, const DoubtfulNode& node,
                               const SegmentInQuestion& segment) const {
-    const Eigen::Vector3d centre =
-        toIsometry(hierarchy_.world_T_node(node.id)).translation();  // of the first segment's points
-    const double shift = (r.motion * centre - centre).norm();
-    const double turn = Eigen::AngleAxisd(r.motion.rotation()).angle();
+    constexpr std::size_t kSample = 200;
+    const Eigen::Isometry3f motion = r.motion.cast<float>();
+    double sum = 0.0;
+    std::size_t asked = 0;
+    const PointCloud& voxels = node.world_voxels;
+    for (std::size_t i = 0; i < voxels.size();
+         i += std::max<std::size_t>(1, voxels.size() / kSample), ++asked)
+      sum += static_cast<double>((motion * voxels[i] - voxels[i]).norm());
     const double least_shift = std::max(config_.least_shift, hierarchy_.node(node.id).map().resolution());
-    if (shift < least_shift && turn < config_.least_turn) return false;
+    if (sum < least_shift * static_cast<double>(asked)) return false;
     return !segment.node || r.score >= r.rest_score + config_.least_gain;
   }
 
