@@ -100,7 +100,7 @@ TEST(Registration, WhatTheScanCannotShowDoesNotCount) {
     return static_cast<double>(p.y()) >= wall ? Sight::hidden : Sight::seen_through;
   };
   EXPECT_NE(registerPoints(model, seen, RegistrationConfig{}).verdict, Match::same);
-  const Registration r = registerPoints(model, seen, RegistrationConfig{}, hidden);
+  const Registration r = registerPoints(model, seen, RegistrationConfig{}, {hidden});
   EXPECT_EQ(r.verdict, Match::same) << r.overlap_model << ' ' << r.overlap_seen << ' ' << r.rms;
   EXPECT_LT((r.motion * Eigen::Vector3d(0, 0, 0.7) - motion * Eigen::Vector3d(0, 0, 0.7)).norm(), 0.003);
 }

@@ -121,6 +121,7 @@ MappingConfig Settings::mappingConfig() const {
   MappingConfig config{sensor.max_range, !monolithic, contest_at_surface, {}};
   config.reidentification.enabled = reidentify && !monolithic;
   config.reidentification.noise = existence.noise;
+  config.reidentification.least_shift = std::max(config.reidentification.least_shift, existence.pose_shift);
   return config;
 }
 

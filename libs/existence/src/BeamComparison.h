@@ -5,8 +5,8 @@
 #include <vector>
 
 #include "RangeBuffer.h"
-#include "hoctomap/existence/RangeView.h"
 #include "hoctomap/existence/BeamExistenceModel.h"
+#include "hoctomap/existence/RangeView.h"
 
 namespace hoctomap {
 

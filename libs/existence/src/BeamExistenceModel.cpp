@@ -70,8 +70,10 @@ std::optional<Silhouette> render(const MapHierarchy& hierarchy, NodeId id, const
 }
 
 /// What stands behind the nodes in question: all nodes that have a child, and the root, rendered as far as
-/// some silhouette lies before it.
+/// some silhouette lies before it. Their voxels are coarse: one that is not clearly behind a node's surface
+/// says nothing of what a beam would meet if the node was gone.
 RangeBuffer renderSupport(const MapHierarchy& hierarchy, const RangeView& view,
+                          const std::vector<NodeId>& nodes,
                           const std::vector<std::optional<Silhouette>>& silhouettes) {
   Eigen::AlignedBox2i field;
   double range = 0.0;
@@ -82,6 +84,10 @@ RangeBuffer renderSupport(const MapHierarchy& hierarchy, const RangeView& view,
     range = std::max(range, s->background_range);
   }
   RangeBuffer support(field.min().x(), field.min().y(), field.max().x(), field.max().y());
+  RangeBuffer front = support;
+  for (std::size_t i = 0; i < nodes.size(); ++i) {
+    if (silhouettes[i] && hierarchy.node(nodes[i]).children().empty()) front.overlay(silhouettes[i]->nearest);
+  }
   const double pixels = 2.0 * range / view.focal();  // that a voxel's square may stick out
   const Eigen::AlignedBox3d bounds = view.worldBounds(range);
   for (const NodeId id : hierarchy.idsNear({bounds.min().array() - pixels, bounds.max().array() + pixels})) {
@@ -91,7 +97,8 @@ RangeBuffer renderSupport(const MapHierarchy& hierarchy, const RangeView& view,
     const Eigen::Isometry3f world_T_node = toIsometry(hierarchy.world_T_node(id)).cast<float>();
     for (const auto& voxel : node.map().occupiedVoxels()) {
       const auto pixel = view.project(world_T_node * voxel);
-      if (pixel) support.splat(*pixel, view.focal(), static_cast<float>(node.map().resolution()));
+      if (pixel)
+        support.splatBehind(front, *pixel, view.focal(), static_cast<float>(node.map().resolution()));
     }
   }
   return support;
@@ -120,7 +127,7 @@ std::vector<Evidence> BeamExistenceModel::evidence(const MapHierarchy& hierarchy
                     [&](std::size_t i) { silhouettes[i] = render(hierarchy, nodes[i], view, config_); });
   if (std::none_of(silhouettes.begin(), silhouettes.end(), [](const auto& s) { return s.has_value(); }))
     return result;
-  const RangeBuffer support = renderSupport(hierarchy, view, silhouettes);
+  const RangeBuffer support = renderSupport(hierarchy, view, nodes, silhouettes);
   tbb::parallel_for(std::size_t{0}, nodes.size(), [&](std::size_t i) {
     const auto& silhouette = silhouettes[i];
     if (!silhouette) return;

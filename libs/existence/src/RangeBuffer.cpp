@@ -15,7 +15,8 @@ int nearestInt(float x) {
 
 }  // namespace
 
-void RangeBuffer::splat(const RangeView::Pixel& center, float focal, float size) {
+template <typename Visit>
+void RangeBuffer::forPixels(const RangeView::Pixel& center, float focal, float size, const Visit& visit) {
   const int half = static_cast<int>(std::ceil(0.5F * focal * size / center.range));
   // Far outside pixel coordinates overflow an int; such a voxel covers nothing here.
   if (std::abs(center.u) > 1e6F || std::abs(center.v) > 1e6F) return;
@@ -27,7 +28,29 @@ void RangeBuffer::splat(const RangeView::Pixel& center, float focal, float size)
   const int v_last = std::min(v1(), v + half);
   for (int y = v_first; y <= v_last; ++y) {
     float* row = range_.data() + static_cast<std::ptrdiff_t>(y - v0_) * width_ - u0_;
-    for (int x = u_first; x <= u_last; ++x) row[x] = std::min(row[x], center.range);
+    for (int x = u_first; x <= u_last; ++x) visit(x, y, row[x]);
+  }
+}
+
+void RangeBuffer::splat(const RangeView::Pixel& center, float focal, float size) {
+  forPixels(center, focal, size, [&](int, int, float& range) { range = std::min(range, center.range); });
+}
+
+void RangeBuffer::splatBehind(const RangeBuffer& front, const RangeView::Pixel& center, float focal,
+                              float size) {
+  const float nearest = center.range - 0.5F * size;
+  forPixels(center, focal, size, [&](int x, int y, float& range) {
+    if (nearest >= front.at(x, y)) range = std::min(range, center.range);
+  });
+}
+
+void RangeBuffer::overlay(const RangeBuffer& other) {
+  for (int v = std::max(v0_, other.v0_); v <= std::min(v1(), other.v1()); ++v) {
+    for (int u = std::max(u0_, other.u0_); u <= std::min(u1(), other.u1()); ++u) {
+      float& range = range_[static_cast<std::size_t>(v - v0_) * static_cast<std::size_t>(width_) +
+                            static_cast<std::size_t>(u - u0_)];
+      range = std::min(range, other.at(u, v));
+    }
   }
 }
 

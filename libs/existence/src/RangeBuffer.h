@@ -23,6 +23,11 @@ class RangeBuffer {
 
   /// Renders a cube of edge `size` metres as the square it covers about its centre.
   void splat(const RangeView::Pixel& center, float focal, float size);
+  /// The same, but only where the centre lies half an edge or more behind what `front` holds.
+  void splatBehind(const RangeBuffer& front, const RangeView::Pixel& center, float focal, float size);
+
+  /// The nearer of both, where `other` lies within this one.
+  void overlay(const RangeBuffer& other);
 
   [[nodiscard]] int u0() const { return u0_; }
   [[nodiscard]] int v0() const { return v0_; }
@@ -36,6 +41,9 @@ class RangeBuffer {
   }
 
  private:
+  template <typename Visit>
+  void forPixels(const RangeView::Pixel& center, float focal, float size, const Visit& visit);
+
   int u0_;
   int v0_;
   int width_;

@@ -1,12 +1,15 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "MovedObjects.h"
 
+#include <tbb/parallel_for.h>
+
 #include <algorithm>
 #include <cmath>
 #include <functional>
+#include <memory>
 
 #include "BeamTraces.h"
-#include "SurfacePoints.h"
+#include "SurfaceRegistration.h"
 
 namespace hoctomap {
 
@@ -52,6 +55,12 @@ bool hasRival(const Fit& fit, const std::vector<Fit>& fits, double margin) {
   });
 }
 
+/// A node and a segment that may show it.
+struct Trial {
+  std::size_t node;
+  std::size_t segment;
+};
+
 class Finder {
  public:
   Finder(const MapHierarchy& hierarchy, const Eigen::Vector3d& origin, const ScanSight& sight,
@@ -64,15 +73,15 @@ class Finder {
                                   const std::vector<DoubtfulNode>& doubtful) const {
     MovedObjects result;
     std::vector<Fit> fits;
-    for (std::size_t n = 0; n < doubtful.size(); ++n) {
-      for (std::size_t s = 0; s < segments.size(); ++s) {
-        if (!isInQuestion(doubtful[n], segments[s], segments)) continue;
-        const Registration r = registered(doubtful[n], segments[s]);
-        if (r.verdict == Match::same && hasMoved(r, doubtful[n], segments[s])) {
-          fits.push_back({n, s, r});
-        } else if (r.verdict == Match::ambiguous && !segments[s].node) {
-          result.ambiguous.push_back(sentence(doubtful[n], segments[s], "may be", r));
-        }
+    const std::vector<Trial> trials = trialsOf(segments, doubtful);
+    const std::vector<Registration> registrations = registered(trials, segments, doubtful);
+    for (std::size_t k = 0; k < trials.size(); ++k) {
+      const auto& [n, s] = trials[k];
+      const Registration& r = registrations[k];
+      if (r.verdict == Match::same && hasMoved(r, doubtful[n], segments[s])) {
+        fits.push_back({n, s, r});
+      } else if (r.verdict == Match::ambiguous && !segments[s].node) {
+        result.ambiguous.push_back(sentence(doubtful[n], segments[s], "may be", r));
       }
     }
     for (const Fit& fit : fits) {
@@ -87,33 +96,111 @@ class Finder {
   }
 
  private:
-  /// New segments, and the only segment in the node's own box: objects often move within it.
+  [[nodiscard]] std::vector<Trial> trialsOf(std::span<const SegmentInQuestion> segments,
+                                            const std::vector<DoubtfulNode>& doubtful) const {
+    std::vector<Trial> trials;
+    for (std::size_t n = 0; n < doubtful.size(); ++n) {
+      for (std::size_t s = 0; s < segments.size(); ++s) {
+        if (isInQuestion(doubtful[n], segments[s], segments)) trials.push_back({n, s});
+      }
+    }
+    return trials;
+  }
+
+  /// New segments, and the only segment in the node's own box, unless it lies where the node does: objects
+  /// often move within it.
   [[nodiscard]] bool isInQuestion(const DoubtfulNode& node, const SegmentInQuestion& segment,
                                   std::span<const SegmentInQuestion> segments) const {
     if (segment.label != hierarchy_.node(node.id).label()) return false;
-    if (segment.node) return *segment.node == node.id;
+    if (segment.node) return *segment.node == node.id && !liesAtRest(node, *segment.world_points);
     return node.contradicted ||
            std::none_of(segments.begin(), segments.end(), [&](const auto& s) { return s.node == node.id; });
   }
 
-  [[nodiscard]] Registration registered(const DoubtfulNode& node, const SegmentInQuestion& segment) const {
-    const double range =
-        (segment.world_points->front().cast<double>() - origin_).norm();  // all points are about as far
-    const auto config = registrationAt(config_, hierarchy_.node(node.id).map().resolution(), range);
+  /// Whether a segment lies at a node's surface, and the scan shows all of that: asked of few points, because
+  /// most nodes in doubt are.
+  [[nodiscard]] bool liesAtRest(const DoubtfulNode& node, const PointCloud& world_points) const {
+    constexpr std::size_t kSample = 200;
+    const RegistrationConfig config = configFor(node, world_points);
     const BeamTraces own(hierarchy_, node.id);
+    std::size_t asked = 0;
+    std::size_t near = 0;
+    for (std::size_t i = 0; i < world_points.size();
+         i += std::max<std::size_t>(1, world_points.size() / kSample)) {
+      ++asked;
+      near += own.mayBeNearSurface(world_points[i], config.near + config.tolerance) ? 1U : 0U;
+    }
+    if (static_cast<double>(near) < config.at_rest * static_cast<double>(asked)) return false;
+    if (!sight_) return false;
+    std::size_t shown = 0;
+    std::size_t there = 0;
+    const PointCloud& voxels = node.world_voxels;
+    for (std::size_t i = 0; i < voxels.size(); i += std::max<std::size_t>(1, voxels.size() / kSample)) {
+      const Sight sight = sight_(voxels[i]);
+      shown += sight == Sight::hidden ? 0U : 1U;
+      there += sight == Sight::surface ? 1U : 0U;
+    }
+    return static_cast<double>(there) >= config.at_rest * static_cast<double>(shown);
+  }
+
+  [[nodiscard]] RegistrationConfig configFor(const DoubtfulNode& node, const PointCloud& world_points) const {
+    const double range =
+        (world_points.front().cast<double>() - origin_).norm();  // all points are about as far
+    return registrationAt(config_, hierarchy_.node(node.id).map().resolution(), range);
+  }
+
+  /// Each surface is made ready once. In parallel: what comes out does not depend on the order.
+  [[nodiscard]] std::vector<Registration> registered(const std::vector<Trial>& trials,
+                                                     std::span<const SegmentInQuestion> segments,
+                                                     const std::vector<DoubtfulNode>& doubtful) const {
+    const double spacing = config_.registration.spacing;
+    std::vector<std::unique_ptr<RegistrationSurface>> models(doubtful.size());
+    std::vector<std::unique_ptr<RegistrationSurface>> seen(segments.size());
+    for (const auto& [n, s] : trials) {
+      if (!models[n]) models[n] = std::make_unique<RegistrationSurface>(doubtful[n].world_voxels, spacing);
+      if (!seen[s]) seen[s] = std::make_unique<RegistrationSurface>(*segments[s].world_points, spacing);
+    }
+    std::vector<RegistrationSight> sights;
+    for (const DoubtfulNode& node : doubtful) sights.push_back(sightFor(node.id));
+    for (std::size_t n = 0; n < models.size(); ++n) {
+      if (models[n]) orientModel(*models[n], sights[n]);
+    }
+    for (const auto& surface : seen) {
+      if (surface) orientSeen(*surface, RegistrationSight{nullptr, origin_});
+    }
+    std::vector<Registration> result(trials.size());
+    tbb::parallel_for(std::size_t{0}, trials.size(), [&](std::size_t k) {
+      const auto& [n, s] = trials[k];
+      result[k] = registerSurfaces(*models[n], *seen[s], configFor(doubtful[n], *segments[s].world_points),
+                                   sights[n]);
+    });
+    return result;
+  }
+
+  [[nodiscard]] RegistrationSight sightFor(NodeId id) const {
+    const BeamTraces own(hierarchy_, id);
     const BeamTraces root(hierarchy_, kRootId);
-    const auto was_shown = [&](const Eigen::Vector3f& p) { return own.isKnown(p) || root.isFree(p); };
-    return registerPoints(node.world_voxels, *segment.world_points, config, sight_, was_shown);
+    RegistrationSight sight;
+    sight.now = sight_;
+    sight.origin = origin_;
+    sight.was_free = [root](const Eigen::Vector3f& p) { return root.isFree(p); };
+    sight.beside = 0.7 * root.voxelDiagonal();
+    sight.was_shown = [own, root](const Eigen::Vector3f& p) { return own.isKnown(p) || root.isFree(p); };
+    return sight;
   }
 
   [[nodiscard]] bool hasMoved(const Registration& r, const DoubtfulNode& node,
                               const SegmentInQuestion& segment) const {
-    const Eigen::Vector3d centre =
-        toIsometry(hierarchy_.world_T_node(node.id)).translation();  // of the first segment's points
-    const double shift = (r.motion * centre - centre).norm();
-    const double turn = Eigen::AngleAxisd(r.motion.rotation()).angle();
+    constexpr std::size_t kSample = 200;
+    const Eigen::Isometry3f motion = r.motion.cast<float>();
+    double sum = 0.0;
+    std::size_t asked = 0;
+    const PointCloud& voxels = node.world_voxels;
+    for (std::size_t i = 0; i < voxels.size();
+         i += std::max<std::size_t>(1, voxels.size() / kSample), ++asked)
+      sum += static_cast<double>((motion * voxels[i] - voxels[i]).norm());
     const double least_shift = std::max(config_.least_shift, hierarchy_.node(node.id).map().resolution());
-    if (shift < least_shift && turn < config_.least_turn) return false;
+    if (sum < least_shift * static_cast<double>(asked)) return false;
     return !segment.node || r.score >= r.rest_score + config_.least_gain;
   }
 

@@ -3,245 +3,218 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <numbers>
+#include <string>
 #include <vector>
 
-#include "SurfacePoints.h"
+#include "ClosestPoints.h"
+#include "SurfaceRegistration.h"
 
 namespace hoctomap {
 
 namespace {
 
+constexpr std::size_t kFewPoints = 60;      // enough to drop turns that are far off
 constexpr std::size_t kCoarsePoints = 120;  // enough to tell the turns apart
-constexpr int kCoarseSteps = 9;
 constexpr std::size_t kFinePoints = 350;
+constexpr std::size_t kJudgedPoints = 600;  // one percent of a share
+constexpr std::size_t kTurnsFollowed = 7;
 constexpr std::size_t kRefinedStarts = 4;
 constexpr double kOtherTurn = 0.17;  // rad; nearer turns are one fit
-constexpr double kTrimmed = 0.85;    // share of the pairs that is believed
-
-/// A point of the model where it is now, the seen point it should come to lie on, and the surface there.
-struct Pair {
-  Eigen::Vector3f model;
-  Eigen::Vector3f seen;
-  Eigen::Vector3f normal;
-  float squared_distance;
-};
-
-enum class Freedom { yaw_and_shift, rigid };
-
-/// About `count` points, evenly spread over the list.
-std::vector<Eigen::Vector3f> thinned(const std::vector<Eigen::Vector3f>& points, std::size_t count) {
-  const std::size_t step = std::max<std::size_t>(1, points.size() / count);
-  std::vector<Eigen::Vector3f> kept;
-  for (std::size_t i = 0; i < points.size(); i += step) kept.push_back(points[i]);
-  return kept;
-}
-
-/// The small motion that brings the pairs together: least squares of the distances along the normals (Chen
-/// and Medioni 1992), with a little of the plain distances so that planes do not slide.
-Eigen::Isometry3f bestStep(const std::vector<Pair>& pairs, const Eigen::Vector3f& centre, Freedom freedom) {
-  using Matrix6 = Eigen::Matrix<double, 6, 6>;
-  using Vector6 = Eigen::Matrix<double, 6, 1>;
-  constexpr double kPlainWeight = 0.1;
-  Matrix6 normal_matrix = Matrix6::Zero();
-  Vector6 right = Vector6::Zero();
-  for (const Pair& pair : pairs) {
-    const Eigen::Vector3d arm = (pair.model - centre).cast<double>();
-    const Eigen::Vector3d gap = (pair.seen - pair.model).cast<double>();
-    const auto add = [&](const Eigen::Vector3d& direction, double weight) {
-      Vector6 row;
-      row << arm.cross(direction), direction;
-      if (freedom == Freedom::yaw_and_shift) row.head<2>().setZero();
-      normal_matrix += weight * row * row.transpose();
-      right += weight * direction.dot(gap) * row;
-    };
-    add(pair.normal.cast<double>(), 1.0);
-    for (int axis = 0; axis < 3; ++axis) add(Eigen::Vector3d::Unit(axis), kPlainWeight);
-  }
-  if (freedom == Freedom::yaw_and_shift) normal_matrix.topLeftCorner<2, 2>().setIdentity();
-  const Vector6 step = normal_matrix.ldlt().solve(right);
-  const Eigen::Vector3d turn = step.head<3>();
-  Eigen::Isometry3d motion = Eigen::Translation3d(centre.cast<double>() + step.tail<3>()) *
-                             Eigen::Quaterniond(Eigen::AngleAxisd(turn.norm(), turn.stableNormalized())) *
-                             Eigen::Translation3d(-centre.cast<double>());
-  return motion.cast<float>();
-}
 
 class Registrar {
  public:
-  Registrar(std::span<const Eigen::Vector3f> model, std::span<const Eigen::Vector3f> seen,
-            const RegistrationConfig& config, const std::function<Sight(const Eigen::Vector3f&)>& sight,
-            const std::function<bool(const Eigen::Vector3f&)>& was_shown)
+  Registrar(const RegistrationSurface& model, const RegistrationSurface& seen,
+            const RegistrationConfig& config, const RegistrationSight& sight)
       : config_(config),
         sight_(sight),
-        was_shown_(was_shown),
         near_(static_cast<float>(config.near + config.tolerance)),
-        model_(model, static_cast<float>(config.spacing)),
-        seen_(seen, static_cast<float>(config.spacing)) {}
+        model_(model),
+        seen_(seen),
+        points_(model, seen, sight) {}
 
   [[nodiscard]] Registration best() const {
-    if (model_.points().size() < 10 || seen_.points().size() < 10) {
+    if (model_.size() < kLeastPoints || seen_.size() < kLeastPoints) {
       Registration none;
       none.verdict = Match::ambiguous;  // too few points to say anything
       return none;
     }
-    Registration rest = judged(Eigen::Isometry3f::Identity());
+    Registration rest = judged(points_.atRest(), kJudgedPoints);
     rest.rest_score = rest.score;
     if (rest.score >= config_.at_rest) return rest;
     std::vector<Registration> candidates;
-    for (const Eigen::Isometry3f& start : coarseMotions()) candidates.push_back(judged(refined(start, 8)));
+    for (const Eigen::Isometry3f& start : coarseMotions()) {
+      candidates.push_back(
+          judged(points_.refined(start, 8, near_, Freedom::yaw_and_shift, kFinePoints), kJudgedPoints));
+    }
+    if (candidates.empty()) {  // nowhere near at any turn
+      rest.verdict = Match::different;
+      return rest;
+    }
     const Registration* best = &*std::max_element(candidates.begin(), candidates.end(), fitsWorse);
     // A round thing fits at any turn: the one it had is kept.
     for (const Registration& c : candidates) {
-      if (c.verdict == best->verdict && quality(c) >= quality(*best) - config_.rival_score &&
-          turn(c.motion) < turn(best->motion) - kOtherTurn) {
-        best = &c;
-      }
+      if (isRival(c, *best) && turn(c.motion) < turn(best->motion) - kOtherTurn) best = &c;
     }
-    const Registration polished = judged(refined(best->motion.cast<float>(), 16));
-    Registration result = fitsWorse(polished, *best) ? *best : polished;
+    Registration result = polished(*best);
+    for (const Registration& c : candidates) {
+      if (&c != best && isRival(c, *best)) result.other_turns.push_back(yaw(c.motion) - yaw(result.motion));
+    }
     result.rest_score = rest.score;
     return result;
   }
 
  private:
+  static constexpr std::size_t kLeastPoints = 10;
+
   static double quality(const Registration& r) {
-    constexpr double kOfRms = 20.0;     // per metre: breaks ties of overlaps that are all but complete
-    constexpr double kExplained = 0.5;  // lest a motion win by taking for new sides what it does not fit
-    return r.score + kExplained * r.explained - kOfRms * r.rms;
+    constexpr double kOfRms = 20.0;      // per metre: breaks ties of overlaps that are all but complete
+    constexpr double kOfOutline = 30.0;  // per metre: sides that differ little differ in where they end
+    constexpr double kExplained = 0.2;   // lest a motion win by taking for new sides what it does not fit
+    return r.score + kExplained * r.explained - kOfRms * r.rms - kOfOutline * r.outline_error;
   }
   static bool fitsWorse(const Registration& a, const Registration& b) { return quality(a) < quality(b); }
 
-  static double turn(const Eigen::Isometry3d& motion) { return Eigen::AngleAxisd(motion.rotation()).angle(); }
+  /// Whether a fit is as good as the best, by another turn.
+  [[nodiscard]] bool isRival(const Registration& r, const Registration& best) const {
+    return r.verdict == best.verdict && quality(r) >= quality(best) - config_.rival_score;
+  }
 
-  /// Turns about the vertical through the aligned centroids, each brought near by yaw and shift; the best
-  /// few.
-  [[nodiscard]] std::vector<Eigen::Isometry3f> coarseMotions() const {
-    const auto seen = thinned(seen_.points(), kCoarsePoints);
-    std::vector<std::pair<double, Eigen::Isometry3f>> ranked;
-    for (int k = 0; k < config_.yaw_starts; ++k) {
-      const auto yaw = static_cast<float>(2.0 * std::numbers::pi * k / config_.yaw_starts);
-      Eigen::Isometry3f motion = Eigen::Isometry3f::Identity();
-      motion.rotate(Eigen::AngleAxisf(yaw, Eigen::Vector3f::UnitZ()));
-      motion.translation() = seen_.centroid() - motion.linear() * model_.centroid();
-      for (int step = 0; step < kCoarseSteps; ++step) {
-        const float radius = 0.060F - 0.005F * static_cast<float>(step);
-        if (!improve(motion, seen, {}, radius, Freedom::yaw_and_shift)) break;
-      }
-      ranked.emplace_back(-shareNear(motion, seen), motion);
-    }
-    std::stable_sort(ranked.begin(), ranked.end(),
-                     [](const auto& a, const auto& b) { return a.first < b.first; });
-    std::vector<Eigen::Isometry3f> best;
-    for (const auto& [cost, motion] : ranked) {
-      if (best.size() == kRefinedStarts) break;
-      const bool is_new = std::none_of(best.begin(), best.end(), [&m = motion](const auto& other) {
-        return m.isApprox(other, 1e-2F);  // several starts end in one place
-      });
-      if (is_new) best.push_back(motion);
+  static double turn(const Eigen::Isometry3d& motion) { return Eigen::AngleAxisd(motion.rotation()).angle(); }
+  static double yaw(const Eigen::Isometry3d& motion) { return std::atan2(motion(1, 0), motion(0, 0)); }
+
+  /// All points, and six degrees of freedom if they explain more.
+  [[nodiscard]] Registration polished(const Registration& start) const {
+    const Eigen::Isometry3f from = toLocal(start.motion);
+    Registration best = judged(from, seen_.size() + model_.size());
+    for (const Freedom freedom : {Freedom::yaw_and_shift, Freedom::rigid}) {
+      const Registration r = judged(points_.refined(toLocal(best.motion), 8, near_, freedom, 2 * kFinePoints),
+                                    seen_.size() + model_.size());
+      if (!fitsWorse(r, best)) best = r;
     }
     return best;
   }
 
-  /// Brings a motion that is right to a centimetre or two to its end: first yaw and shift, then all six.
-  [[nodiscard]] Eigen::Isometry3f refined(Eigen::Isometry3f motion, int steps) const {
-    const auto seen = thinned(seen_.points(), kFinePoints);
-    const auto model = thinned(model_.points(), kFinePoints);
-    for (int step = 0; step < steps; ++step) {
-      const Eigen::Isometry3f before = motion;
-      const float radius = std::max(near_, 0.020F - 0.0020F * static_cast<float>(step));
-      const Freedom freedom = step < steps / 2 ? Freedom::yaw_and_shift : Freedom::rigid;
-      if (!improve(motion, seen, model, radius, freedom)) break;
-      const bool settled = (motion * model_.centroid() - before * model_.centroid()).norm() < 1e-5F &&
-                           motion.linear().isApprox(before.linear(), 1e-4F);
-      if (settled && freedom == Freedom::rigid) break;
+  /// Turns about the vertical through the aligned centroids, each brought near by yaw and shift; the best
+  /// few. None if the two have no shape in common.
+  [[nodiscard]] std::vector<Eigen::Isometry3f> coarseMotions() const {
+    struct Start {
+      float distance;
+      Eigen::Isometry3f motion;
+    };
+    const auto rank = [](std::vector<Start>& starts) {
+      std::stable_sort(starts.begin(), starts.end(),
+                       [](const Start& a, const Start& b) { return a.distance < b.distance; });
+    };
+    const float far = 3.0F * near_;
+    std::vector<Start> starts;
+    for (int k = 0; k < config_.yaw_starts; ++k) {
+      Eigen::Isometry3f motion =
+          points_.turned(static_cast<float>(2.0 * std::numbers::pi * k / config_.yaw_starts));
+      points_.approach(motion, 3, 0.060F, 0.040F, kFewPoints);
+      starts.push_back({points_.meanDistance(motion, far, kCoarsePoints), motion});
     }
-    return motion;
+    rank(starts);
+    starts.resize(std::min(starts.size(), kTurnsFollowed));
+    for (Start& start : starts) {
+      points_.approach(start.motion, 6, 0.040F, 0.020F, kCoarsePoints);
+      start.distance = points_.meanDistance(start.motion, far, 2 * kCoarsePoints);
+    }
+    rank(starts);
+    std::vector<Eigen::Isometry3f> best;
+    for (const Start& start : starts) {
+      // Even a side that was never seen lies near one that was at its edge.
+      if (best.size() == kRefinedStarts || start.distance > 0.6F * far) break;
+      const bool is_new = std::none_of(best.begin(), best.end(),
+                                       [&](const auto& other) { return endTogether(start.motion, other); });
+      if (is_new) best.push_back(start.motion);
+    }
+    return best;
   }
 
-  /// One step of trimmed ICP. @return false if too few pairs are left
-  bool improve(Eigen::Isometry3f& motion, const std::vector<Eigen::Vector3f>& seen,
-               const std::vector<Eigen::Vector3f>& model, float radius, Freedom freedom) const {
-    std::vector<Pair> pairs;
-    const Eigen::Isometry3f back = motion.inverse();
-    for (const auto& q : seen) {
-      if (const auto p = model_.nearest(back * q, radius)) {
-        pairs.push_back({motion * *p->point, q, motion.linear() * *p->normal, p->squared_distance});
-      }
-    }
-    for (const auto& p : model) {
-      const Eigen::Vector3f at = motion * p;
-      if (const auto q = seen_.nearest(at, radius)) {
-        pairs.push_back({at, *q->point, *q->normal, q->squared_distance});
-      }
-    }
-    const auto kept = static_cast<std::size_t>(kTrimmed * static_cast<double>(pairs.size()));
-    if (kept < 6) return false;
-    std::nth_element(pairs.begin(), pairs.begin() + static_cast<std::ptrdiff_t>(kept), pairs.end(),
-                     [](const Pair& a, const Pair& b) { return a.squared_distance < b.squared_distance; });
-    pairs.resize(kept);
-    motion = bestStep(pairs, motion * model_.centroid(), freedom) * motion;
-    return true;
+  /// Several starts end in one place.
+  [[nodiscard]] bool endTogether(const Eigen::Isometry3f& a, const Eigen::Isometry3f& b) const {
+    constexpr float kShift = 0.01F;  // m
+    constexpr double kTurn = 0.1;    // rad
+    return (a * model_.centroid() - b * model_.centroid()).norm() < kShift &&
+           turn((a.inverse() * b).cast<double>()) < kTurn;
   }
 
-  [[nodiscard]] double shareNear(const Eigen::Isometry3f& motion,
-                                 const std::vector<Eigen::Vector3f>& seen) const {
-    const Eigen::Isometry3f back = motion.inverse();
-    const auto count = std::count_if(seen.begin(), seen.end(), [&](const auto& q) {
-      return model_.nearest(back * q, 2.0F * near_).has_value();
-    });
-    return static_cast<double>(count) / static_cast<double>(seen.size());
-  }
-
-  [[nodiscard]] Registration judged(const Eigen::Isometry3f& motion) const {
+  [[nodiscard]] Registration judged(const Eigen::Isometry3f& motion, std::size_t samples) const {
     Registration r;
-    r.motion = motion.cast<double>();
-    r.motion.linear() = Eigen::Quaterniond(r.motion.linear()).normalized().toRotationMatrix();
+    r.motion = toWorld(motion);
     double squares = 0.0;
     std::size_t pairs = 0;
 
     const Eigen::Isometry3f back = motion.inverse();
+    std::size_t seen_asked = 0;
     std::size_t seen_near = 0;
     std::size_t new_sides = 0;
-    for (const auto& q : seen_.points()) {
-      const Eigen::Vector3f before = back * q;
+    for (std::size_t i = 0; i < seen_.size(); i += stride(seen_, samples)) {
+      ++seen_asked;
+      const Eigen::Vector3f before = back * seen_.points()[i];
       const auto p = model_.nearest(before, near_);
       if (!p) {
-        if (was_shown_ && !was_shown_(before)) ++new_sides;
+        new_sides += isNewSide(i, back) ? 1U : 0U;
         continue;
       }
       ++seen_near;
       squares += static_cast<double>(p->squared_distance);
       ++pairs;
     }
+    std::size_t model_asked = 0;
     std::size_t model_near = 0;
     std::size_t model_missed = 0;
     std::size_t model_through = 0;
-    float highest = -std::numeric_limits<float>::infinity();
-    for (const auto& at : model_.points()) {
-      const Eigen::Vector3f p = motion * at;
-      highest = std::max(highest, p.z());
+    for (std::size_t i = 0; i < model_.size(); i += stride(model_, samples)) {
+      ++model_asked;
+      const Eigen::Vector3f p = motion * model_.points()[i];
       if (const auto q = seen_.nearest(p, near_)) {
         ++model_near;
         squares += static_cast<double>(q->squared_distance);
         ++pairs;
         continue;
       }
-      const Sight sight = sight_ ? sight_(p) : Sight::surface;
+      const Sight sight = sightOf(i, motion);
       if (sight == Sight::hidden) continue;
       ++model_missed;
       if (sight == Sight::seen_through) ++model_through;
     }
     const std::size_t visible = model_near + model_missed;
-    r.overlap_seen = share(seen_near, seen_.points().size() - new_sides);
+    r.overlap_seen = share(seen_near, seen_asked - new_sides);
     r.overlap_model = share(model_near, visible);
     r.seen_through = share(model_through, visible);
     r.rms = pairs == 0 ? 0.0 : std::sqrt(squares / static_cast<double>(pairs));
     r.score = std::min(r.overlap_model, r.overlap_seen);
-    r.explained = share(seen_near, seen_.points().size());
-    r.verdict = verdict(r, share(visible, model_.points().size()),
-                        std::abs(static_cast<double>(highest - seen_.highest())));
+    r.explained = share(seen_near, seen_asked);
+    r.outline_error = points_.outlineError(motion, 2.0F * near_);
+    r.verdict = verdict(r, share(visible, model_asked), heightError(motion));
     return r;
+  }
+
+  /// Whether a seen point faces a way that nothing of the model does.
+  [[nodiscard]] bool isNewSide(std::size_t seen, const Eigen::Isometry3f& back) const {
+    if (!model_.isOriented() || seen_.facing(seen) == 0) return false;
+    return !model_.hasSide(static_cast<float>(seen_.facing(seen)) * (back.linear() * seen_.normal(seen)));
+  }
+
+  /// What the scan says of a point of the model.
+  [[nodiscard]] Sight sightOf(std::size_t model, const Eigen::Isometry3f& motion) const {
+    const Eigen::Vector3f p = motion * model_.points()[model] + seen_.origin();
+    if (sight_.origin && model_.facing(model) != 0) {
+      const Eigen::Vector3f to_sensor = sight_.origin->cast<float>() - p;
+      const Eigen::Vector3f normal = motion.linear() * model_.normal(model);
+      if (static_cast<float>(model_.facing(model)) * normal.dot(to_sensor) < 0.0F) return Sight::hidden;
+    }
+    return sight_.now ? sight_.now(p) : Sight::surface;
+  }
+
+  /// Difference of the tops, m.
+  [[nodiscard]] double heightError(const Eigen::Isometry3f& motion) const {
+    float highest = -std::numeric_limits<float>::infinity();
+    for (const auto& p : model_.points()) highest = std::max(highest, (motion * p).z());
+    return static_cast<double>(std::abs(highest - seen_.highest()));
   }
 
   [[nodiscard]] Match verdict(const Registration& r, double visible, double height_error) const {
@@ -254,39 +227,70 @@ class Registrar {
     return same ? Match::same : Match::ambiguous;
   }
 
+  static std::size_t stride(const RegistrationSurface& surface, std::size_t samples) {
+    return std::max<std::size_t>(1, surface.size() / samples);
+  }
   static double share(std::size_t part, std::size_t whole) {
     return whole == 0 ? 0.0 : static_cast<double>(part) / static_cast<double>(whole);
   }
 
+  /// From motions of the surfaces about their origins to those of the world, and back.
+  [[nodiscard]] Eigen::Isometry3d toWorld(const Eigen::Isometry3f& motion) const {
+    Eigen::Isometry3d m = motion.cast<double>();
+    m.linear() = Eigen::Quaterniond(m.linear()).normalized().toRotationMatrix();
+    return Eigen::Translation3d(seen_.origin().cast<double>()) * m *
+           Eigen::Translation3d(-model_.origin().cast<double>());
+  }
+  [[nodiscard]] Eigen::Isometry3f toLocal(const Eigen::Isometry3d& motion) const {
+    const Eigen::Isometry3d m = Eigen::Translation3d(-seen_.origin().cast<double>()) * motion *
+                                Eigen::Translation3d(model_.origin().cast<double>());
+    return m.cast<float>();
+  }
+
   const RegistrationConfig& config_;
-  const std::function<Sight(const Eigen::Vector3f&)>& sight_;
-  const std::function<bool(const Eigen::Vector3f&)>& was_shown_;
+  const RegistrationSight& sight_;
   float near_;
-  SurfacePoints model_;
-  SurfacePoints seen_;
+  const RegistrationSurface& model_;
+  const RegistrationSurface& seen_;
+  ClosestPoints points_;
 };
 
 }  // namespace
 
+Registration registerSurfaces(const RegistrationSurface& model, const RegistrationSurface& seen,
+                              const RegistrationConfig& config, const RegistrationSight& sight) {
+  return Registrar(model, seen, config, sight).best();
+}
+
+void orientModel(RegistrationSurface& model, const RegistrationSight& sight) {
+  if (!sight.origin || !sight.was_free) return;
+  const auto beside = static_cast<float>(sight.beside);
+  model.orient([&](const Eigen::Vector3f& p, const Eigen::Vector3f& normal) {
+    const bool over = sight.was_free(p + model.origin() + beside * normal);
+    const bool under = sight.was_free(p + model.origin() - beside * normal);
+    // Thin things, and such that stand among others: most surfaces face away from the middle.
+    if (over == under) return normal.dot(p - model.centroid()) > 0.0F ? 1 : -1;
+    return over ? 1 : -1;
+  });
+}
+
+void orientSeen(RegistrationSurface& seen, const RegistrationSight& sight) {
+  if (!sight.origin) return;
+  const Eigen::Vector3f origin = sight.origin->cast<float>() - seen.origin();
+  seen.orient([&](const Eigen::Vector3f& p, const Eigen::Vector3f& normal) {
+    return normal.dot(origin - p) > 0.0F ? 1 : -1;
+  });
+}
+
 Registration registerPoints(std::span<const Eigen::Vector3f> model_world,
                             std::span<const Eigen::Vector3f> seen_world, const RegistrationConfig& config,
-                            const std::function<Sight(const Eigen::Vector3f&)>& sight,
-                            const std::function<bool(const Eigen::Vector3f&)>& was_shown) {
-  // About the object itself: single precision near the world's origin is not that of far away.
+                            const RegistrationSight& sight) {
   if (model_world.empty() || seen_world.empty()) return {};
-  const Eigen::Vector3f centre = model_world.front();
-  std::vector<Eigen::Vector3f> model(model_world.begin(), model_world.end());
-  std::vector<Eigen::Vector3f> seen(seen_world.begin(), seen_world.end());
-  for (auto& p : model) p -= centre;
-  for (auto& p : seen) p -= centre;
-  std::function<Sight(const Eigen::Vector3f&)> local;
-  if (sight) local = [&](const Eigen::Vector3f& p) { return sight(p + centre); };
-  std::function<bool(const Eigen::Vector3f&)> local_shown;
-  if (was_shown) local_shown = [&](const Eigen::Vector3f& p) { return was_shown(p + centre); };
-  Registration r = Registrar(model, seen, config, local, local_shown).best();
-  const Eigen::Translation3d to_world(centre.cast<double>());
-  r.motion = to_world * r.motion * to_world.inverse();
-  return r;
+  RegistrationSurface model(model_world, config.spacing);
+  RegistrationSurface seen(seen_world, config.spacing);
+  orientModel(model, sight);
+  orientSeen(seen, sight);
+  return registerSurfaces(model, seen, config, sight);
 }
 
 }  // namespace hoctomap

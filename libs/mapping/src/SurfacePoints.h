@@ -12,7 +12,7 @@
 
 namespace hoctomap {
 
-/// Points of a surface, thinned, with their normals and a search tree.
+/// Points of a surface, thinned, with a search tree.
 class SurfacePoints {
  public:
   /// Keeps the mean of the points in each cube of `spacing`, in an order that depends on the points only.
@@ -22,16 +22,22 @@ class SurfacePoints {
   SurfacePoints& operator=(const SurfacePoints&) = delete;
 
   [[nodiscard]] const std::vector<Eigen::Vector3f>& points() const { return points_; }
-  [[nodiscard]] const Eigen::Vector3f& centroid() const { return centroid_; }
-  [[nodiscard]] float highest() const { return highest_; }
+  [[nodiscard]] std::size_t size() const { return points_.size(); }
 
   struct Neighbour {
-    const Eigen::Vector3f* point;
-    const Eigen::Vector3f* normal;  ///< of the surface there; its sign means nothing
-    float squared_distance;         ///< m^2
+    std::size_t index;
+    float squared_distance;  ///< m^2
   };
   /// Nearest point; nothing if there is none within `radius`.
   [[nodiscard]] std::optional<Neighbour> nearest(const Eigen::Vector3f& p, float radius) const;
+  /// Distance of a point's n-th neighbour beside itself, m; of the last one if there are fewer.
+  [[nodiscard]] float distanceToNeighbour(const Eigen::Vector3f& p, std::size_t n) const;
+  /// Calls `visit(index)` for every point within `radius`.
+  template <typename Visit>
+  void forPointsNear(const Eigen::Vector3f& p, float radius, const Visit& visit) const {
+    Visitor<Visit> visitor{visit, radius * radius};
+    if (!points_.empty()) tree_->findNeighbors(visitor, p.data(), nanoflann::SearchParams());
+  }
 
   // nanoflann's names
   [[nodiscard]] std::size_t kdtree_get_point_count() const { return points_.size(); }
@@ -46,12 +52,22 @@ class SurfacePoints {
  private:
   using Tree = nanoflann::KDTreeSingleIndexAdaptor<nanoflann::L2_Simple_Adaptor<float, SurfacePoints>,
                                                    SurfacePoints, 3>;
-  void estimateNormals(float spacing);
+  /// A result set of nanoflann that keeps nothing.
+  template <typename Visit>
+  struct Visitor {
+    using DistanceType = float;
+    const Visit& visit;
+    float squared_radius;
+
+    bool addPoint(float, std::size_t index) {
+      visit(index);
+      return true;
+    }
+    [[nodiscard]] float worstDist() const { return squared_radius; }
+    [[nodiscard]] bool full() const { return true; }
+  };
 
   std::vector<Eigen::Vector3f> points_;
-  std::vector<Eigen::Vector3f> normals_;
-  Eigen::Vector3f centroid_ = Eigen::Vector3f::Zero();
-  float highest_ = 0.0F;
   std::optional<Tree> tree_;
 };
 

@@ -56,7 +56,7 @@ std::optional<Motion> findMotion(const Thing& a, const Thing& b, const TwoMaps& 
   registration.spacing = std::max({registration.spacing, a.resolution, b.resolution});
   const Registration found =
       registerPoints(model.voxels, seen.voxels, registration,
-                     [&](const Eigen::Vector3f& p) { return evidence.sight(model, p.cast<double>()); });
+                     {[&](const Eigen::Vector3f& p) { return evidence.sight(model, p.cast<double>()); }});
   if (found.verdict == Match::different) return std::nullopt;
   const Eigen::Isometry3d a_to_b = forward ? found.motion : found.motion.inverse();
   if (!standsAgain(a, a_to_b, b, maps)) return std::nullopt;

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "BinSearch.h"
 #include "ScanBlocks.h"
 #include "hoctomap/tabletop/EuclideanClusters.h"
 
@@ -205,7 +206,7 @@ std::vector<TableSurface> findTables(const Measurement& z, const TabletopSegment
     removeExplained(surfels, *plane, tables);
   }
   keepTables(tables, config);
-  return tables;
+  return tables.empty() ? findBins(scan, config) : tables;
 }
 
 }  // namespace hoctomap

@@ -3,7 +3,9 @@
 
 #include <Eigen/Geometry>
 #include <functional>
+#include <optional>
 #include <span>
+#include <vector>
 
 namespace hoctomap {
 
@@ -42,23 +44,40 @@ struct Registration {
   double overlap_seen = 0.0;   ///< share of the seen points that the model can show near one of its points
   double explained = 0.0;      ///< share of all seen points near a point of the model
   double rms = 0.0;            ///< m, of the overlapping points
+  double outline_error = 0.0;  ///< m, root mean square distance of the edges that meet; 0 if none do
   double seen_through = 0.0;   ///< share of the model's points that the scan contradicts
   double rest_score = 0.0;     ///< the score without any motion
   double score = 0.0;          ///< the smaller of the two overlaps
+  /// rad about the vertical, to be added to that of `motion`: turns that fit as well. What is nearly square
+  /// may have made a quarter turn, what is round any.
+  std::vector<double> other_turns;
+};
+
+/// What a registration may ask of the world beside the two sets of points. All are optional.
+struct RegistrationSight {
+  /// What the scan says of a place; none: everything is visible.
+  std::function<Sight(const Eigen::Vector3f&)> now = nullptr;
+  /// Where the scan was taken from, and whether earlier beams passed a place beside the model. Both tell
+  /// which way surfaces face: a turned object shows sides that nobody has seen before. None: it shows no new
+  /// ones.
+  std::optional<Eigen::Vector3d> origin = std::nullopt;
+  std::function<bool(const Eigen::Vector3f&)> was_free = nullptr;
+  double beside = 0.06;
+  /// Whether earlier scans would have shown a surface at a place: then the model ends there, and not only
+  /// what was seen of it. None: always.
+  std::function<bool(const Eigen::Vector3f&)> was_shown = nullptr;
 };
 
 /// Registers the points of a known object to points that may show it elsewhere (III-D): turns about the
 /// vertical about aligned centroids, trimmed iterated closest points (Chetverikov et al. 2002), the best of
-/// them refined in six degrees of freedom. Points of the model that the scan cannot show at the new place do
-/// not count.
+/// them refined, in six degrees of freedom if that fits better. Points of the model that the scan cannot show
+/// at the new place do not count, nor do seen points of sides that the model does not have.
 /// @param model_world  surface points of the object where it was, m
 /// @param seen_world   points that the scan shows, m
-/// @param sight        what the scan says of a place (world); null: everything is visible
-/// @param was_shown    whether earlier scans would have shown a surface at this place, of a model where it
-///                     was (world): a turned object shows sides that nobody has seen before; null: always
-[[nodiscard]] Registration registerPoints(
-    std::span<const Eigen::Vector3f> model_world, std::span<const Eigen::Vector3f> seen_world,
-    const RegistrationConfig& config, const std::function<Sight(const Eigen::Vector3f&)>& sight = nullptr,
-    const std::function<bool(const Eigen::Vector3f&)>& was_shown = nullptr);
+/// @param sight        places in the world, m
+[[nodiscard]] Registration registerPoints(std::span<const Eigen::Vector3f> model_world,
+                                          std::span<const Eigen::Vector3f> seen_world,
+                                          const RegistrationConfig& config,
+                                          const RegistrationSight& sight = {});
 
 }  // namespace hoctomap

@@ -10,8 +10,7 @@ namespace hoctomap {
 struct ReidentificationConfig {
   bool enabled = true;
   double most_present = 0.85;  ///< share of a node's beams that end on it, above which it has not moved
-  double least_shift = 0.005;  ///< m; smaller motions are errors of the poses
-  double least_turn = 0.05;    ///< rad
+  double least_shift = 0.005;  ///< m, mean over the surface; smaller motions are errors of the poses
   double least_gain = 0.1;     ///< of the score over staying at rest, if the segment lies in the node's box
   double rival_score = 0.05;   ///< two fits whose scores differ by less are ambiguous
   RangeNoise noise;            ///< of the sensor

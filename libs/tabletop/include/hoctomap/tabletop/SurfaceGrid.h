@@ -58,14 +58,15 @@ class SurfaceGrid {
   /// an L nor the room beyond a table's edge is part of it.
   [[nodiscard]] CellMask extent(const CellMask& patch) const;
 
+  /// The cells whose centres lie within the convex hull of a mask's, and the mask itself.
+  [[nodiscard]] CellMask hull(const CellMask& mask) const;
+
   /// The mask grown by `distance` metres (in steps of a cell, to 8 neighbours).
   [[nodiscard]] CellMask dilated(const CellMask& mask, double distance) const;
 
  private:
   template <typename Visit>
   void forNeighbours(std::size_t cell, const Visit& visit) const;
-  [[nodiscard]] CellMask hull(const CellMask& mask) const;
-
   double cell_;
   Eigen::Vector2d corner_;
   int columns_ = 0;

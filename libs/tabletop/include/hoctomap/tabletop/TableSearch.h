@@ -21,7 +21,8 @@ struct TableSurface {
 };
 
 /// The tables of a scan, largest first: horizontal planes at table height, one table for each patch of such a
-/// plane that is large enough, seen from above, and not the top of something that stands on a larger one.
+/// plane that is large enough, seen from above, and not the top of something that stands on a larger one. If
+/// there is none: the hidden floors of full bins.
 [[nodiscard]] std::vector<TableSurface> findTables(const Measurement& z,
                                                    const TabletopSegmentationConfig& config);
 
