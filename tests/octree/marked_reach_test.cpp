@@ -124,14 +124,23 @@ TEST(MarkedReach, GrowsWithTheMarks) {
   EXPECT_EQ(reach.stepsMarked(up), 64);
 }
 
+TEST(DenseScan, RoundsMeetEachBeamOnce) {
+  for (const std::size_t beams : {0U, 1U, 31U, 32U, 1000U}) {
+    std::vector<int> met(beams);
+    for (std::size_t round = 0; round < kRounds.size(); ++round) {
+      forEachOfRound(round, beams, [&](std::size_t i) { ++met[i]; });
+    }
+    EXPECT_EQ(std::count(met.begin(), met.end(), 1), static_cast<std::ptrdiff_t>(beams));
+  }
+}
+
 TEST(DenseScan, RoundsAreDrawnEvenly) {
-  // Of any beams at equal distances, too: of one column of an image, say.
-  for (const std::size_t stride : {1U, 2U, 16U, 320U, 640U, 641U, 1024U}) {
-    std::array<double, kRounds.size()> beams{};
-    constexpr std::size_t kBeams = 4000;
-    for (std::size_t i = 0; i < kBeams; ++i) beams[roundOf(i * stride)] += 1.0 / kBeams;
-    EXPECT_NEAR(beams[0], 2.0 / 32.0, 0.02) << stride;
-    EXPECT_NEAR(beams[1], 6.0 / 32.0, 0.02) << stride;
+  // Of the beams of one column of an image, too.
+  for (const std::size_t width : {1U, 32U, 320U, 640U, 641U, 1024U}) {
+    std::vector<double> of_column(width);
+    constexpr std::size_t kHeight = 480;
+    forEachOfRound(1, width * kHeight, [&](std::size_t i) { of_column[i % width] += 1.0 / kHeight; });
+    for (const double share : of_column) EXPECT_NEAR(share, 6.0 / 32.0, 0.06) << width;
   }
 }
 

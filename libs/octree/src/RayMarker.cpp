@@ -41,10 +41,13 @@ struct Traversals {
   /// Takes each lane to its next cell. No branch depends on the rays: the earliest crossing (octomap's order:
   /// see nextAxis) is found by masks, and the other axes add zero, which changes no time and no place.
   HOCTOMAP_INLINE void step() {
+    const Codes x_before_y = next[0] < next[1];
+    const Codes x_before_z = next[0] < next[2];
+    const Codes y_before_z = next[1] < next[2];
+    const Codes x = x_before_y & x_before_z;
+    const Codes y = ~x_before_y & y_before_z;
+    const Codes z = ~(x | y);
     const Doubles first = lesser(lesser(next[0], next[1]), next[2]);
-    const Codes z = next[2] == first;
-    const Codes y = (next[1] == first) & ~z;
-    const Codes x = ~(z | y);
     gap = lesser(gap, first - before);
     before = first;
     addWhere(next[0], delta[0], x);

@@ -2,6 +2,7 @@
 #include "ScanBeams.h"
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 
 #include "RayTraversal.h"
@@ -78,12 +79,15 @@ ScanBeams::ScanBeams(const VoxelGrid& grid, const Beams& beams) : grid_(grid), b
 }
 
 bool ScanBeams::allAddressable() const {
-  const auto addressable = [this](const Vector3f& p) {
-    Key key;
-    return grid_.checkedKey(p, key);
-  };
-  return std::all_of(beams_.hits.begin(), beams_.hits.end(), addressable) &&
-         std::all_of(beams_.endpoints.begin(), beams_.endpoints.end(), addressable);
+  // Not the last voxel's border: rounding is no matter here.
+  const auto limit = static_cast<float>((kKeyOffset - 1) * grid_.resolution());
+  bool beyond = false;  // or not a number
+  for (const auto list : {beams_.hits, beams_.endpoints}) {
+    for (const Vector3f& p : list) {
+      beyond |= !(std::fabs(p[0]) <= limit) | !(std::fabs(p[1]) <= limit) | !(std::fabs(p[2]) <= limit);
+    }
+  }
+  return !beyond;
 }
 
 void ScanBeams::findOddities(const KeyBox& reach, const KeyBox& bounds) {

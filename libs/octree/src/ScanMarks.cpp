@@ -16,7 +16,8 @@ ScanMarks::ScanMarks(const ScanBeams& scan, const KeyBox& box, bool bounded, Ins
       bounded_(bounded),
       frame_(box),
       scratch_(scratch),
-      caster_(scan.grid(), scan.origin()) {
+      caster_(scan.grid(), scan.origin()),
+      mark_endpoints_(chooseMarkEndpoints(set)) {
   scratch_.free.open(frame_);
   scratch_.occupied.open(frame_);
   if (!caster_.originValid()) return;
@@ -35,11 +36,8 @@ void ScanMarks::addHits(std::span<const Vector3f> points) {
 }
 
 void ScanMarks::addEndpoints(std::span<const Vector3f> points) {
-  Key key;
-  for (const Vector3f& p : points) {
-    if (scan_.isTooLong(p) || !scan_.grid().checkedKey(p, key)) continue;
-    if (box_.contains(key)) scratch_.occupied.mark(frame_.localCode(key));
-  }
+  const EndpointField field(scan_.grid(), scan_.origin(), scan_.beams().max_range, box_, frame_);
+  mark_endpoints_(field, points, scratch_.occupied);
 }
 
 void ScanMarks::addPassing(std::span<const Vector3f> points) {
@@ -56,14 +54,13 @@ void ScanMarks::addBeams(std::span<const Vector3f> points) {
   for (std::size_t round = 0; round < kRounds.size(); ++round) {
     marker_->finish();
     reach_->refresh();
-    for (std::size_t i = 0; i < points.size(); ++i) {
-      if (roundOf(i) != round) continue;
+    forEachOfRound(round, points.size(), [&](std::size_t i) {
       const Vector3f way = points[i] - scan_.origin();
-      if (!hasDirection(way)) continue;
+      if (!hasDirection(way)) return;
       const Direction direction = directionOf(way);
       const int steps = round == 0 ? 0 : reach_->stepsMarked(direction);
       marker_->add(scan_.end(points[i]), MarkedReach::axisOf(direction), steps);
-    }
+    });
   }
 }
 

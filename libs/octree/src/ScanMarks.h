@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "BlockView.h"
+#include "EndpointMarker.h"
 #include "MarkedReach.h"
 #include "RayClip.h"
 #include "RayMarker.h"
@@ -53,6 +54,7 @@ class ScanMarks {
   Scratch& scratch_;
   std::optional<RayFan> fan_;  ///< none if the origin lies beyond the key range
   RayCaster caster_;
+  MarkEndpoints mark_endpoints_;
   std::optional<RayMarker> marker_;   ///< as `fan_`
   std::optional<MarkedReach> reach_;  ///< for large scans from inside the box
 };
