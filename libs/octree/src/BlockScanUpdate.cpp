@@ -123,7 +123,10 @@ class ScanPass {
     }
     const std::size_t tasks = tasksFor(beams.beams());
     std::vector<std::unique_ptr<Scratch>> scratch(tasks);
-    for (auto& s : scratch) s = pool_.take();
+    for (auto& s : scratch) {
+      s = pool_.take();
+      s->keepAtMost(static_cast<std::size_t>(max_pages_));  // of all parts together
+    }
     {
       std::vector<std::unique_ptr<ScanMarks>> marks(tasks);
       const auto mark = [&](std::size_t task) {

@@ -17,7 +17,7 @@ bool isDense(const ScanBeams& scan, std::span<const Eigen::Vector3f> points) {
   constexpr std::size_t kManyBeams = 4096;
   constexpr std::size_t kStride = 16;
   constexpr double kBeamsADirection = 2.5;  // in the sample, a grid cell of 2^-6: 40 in the scan
-  constexpr double kCellsABeam = 200.0;
+  constexpr double kCellsABeam = 80.0;
   if (points.size() < kManyBeams) return false;
   constexpr unsigned kShift = 4;
   std::vector<bool> met(std::size_t{6} << (2 * kDirectionBits - kShift));

@@ -17,6 +17,11 @@ namespace hoctomap::engine {
 struct Scratch {
   VoxelBits free;
   VoxelBits occupied;
+
+  void keepAtMost(std::size_t pages) {
+    free.keepAtMost(pages);
+    occupied.keepAtMost(pages);
+  }
 };
 
 /// Collects the voxels of a scan that lie in a box.

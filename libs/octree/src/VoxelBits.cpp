@@ -90,7 +90,7 @@ void VoxelBits::clear() {
     }
   }
   // Fresh memory costs ten times as much as memory in use: only a large scan gives its pages back.
-  const bool keep = resident_count_ <= kMaxKeptPages;
+  const bool keep = resident_count_ <= max_kept_;
   for (std::size_t page = 0; keep && page < pages_.size(); ++page) {
     if (pages_[page] != 0) std::memset(words_ + page * kPageWords, 0, kPageWords * sizeof(BlockBits));
   }

@@ -97,6 +97,9 @@ class VoxelBits {
   /// Empties the set.
   void clear();
 
+  /// From now on `clear` keeps the memory of at most so many pages.
+  void keepAtMost(std::size_t pages) { max_kept_ = pages; }
+
  private:
   void release();
 
@@ -104,6 +107,7 @@ class VoxelBits {
   std::size_t reserved_ = 0;            ///< words
   std::vector<std::uint8_t> resident_;  ///< one flag a reserved page: it has memory
   std::size_t resident_count_ = 0;
+  std::size_t max_kept_ = kMaxKeptPages;
   std::vector<std::uint8_t> pages_;
 };
 

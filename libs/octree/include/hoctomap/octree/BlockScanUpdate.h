@@ -19,7 +19,7 @@ enum class Instructions {
 ///
 /// The voxels of a scan are collected as bits (two bitmaps, free and occupied), then the tree is updated in
 /// one pass. Memory beyond the tree: 4 KB for each 32^3 voxels that a beam meets, at most about 8 MB at a
-/// time and thread, and 32 bytes a beam of a dense scan. Uses the threads of the calling oneTBB arena; the
+/// time and thread. Uses the threads of the calling oneTBB arena; the
 /// tree is the same for any number of them. The memory is kept for the next update: use one engine for all of
 /// them.
 ///
