@@ -101,7 +101,12 @@ class VoxelCube {
 
   void insert(unsigned octant, Node* voxel) {
     present_ |= 1U << octant;
-    (octant < 4 ? low_ : high_)[octant % 4] = voxel->getValue();
+    // Not an element of (low or high): with -fsanitize=undefined, GCC 12 writes that into a copy.
+    if (octant < 4) {
+      low_[octant] = voxel->getValue();
+    } else {
+      high_[octant - 4] = voxel->getValue();
+    }
   }
 
   /// Of those that exist.
