@@ -15,7 +15,9 @@ namespace {
 void unbounded(benchmark::State& state, const BenchmarkInput& input, double resolution) {
   const MappingStrategies strategies = makeStrategies(input.settings());
   const Measurement& z = input.lastScan();
-  const Beams beams{z.origin().cast<float>(), z.world_points, {}, -1.0, {}};
+  Beams beams;
+  beams.origin = z.origin().cast<float>();
+  beams.hits = z.world_points;
   for (auto _ : state) {
     octomap::OcTree tree(resolution);
     strategies.update->apply(tree, beams);
