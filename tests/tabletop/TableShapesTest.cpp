@@ -41,18 +41,6 @@ TEST(TableShapes, AnLShapedCounterIsOneTable) {
   }
 }
 
-TEST(TableShapes, ATableSeenInStripsIsOneTable) {
-  for (std::uint64_t seed = 1; seed <= 4; ++seed) {
-    BoxScene scene;
-    scene.add(1.2, 0.0, 0.70, 0.7, 1.4, 0.03);
-    for (int i = 0; i < 6; ++i) scene.add(1.2, -0.6 + 0.24 * i, 0.73, 0.5, 0.16, 0.1);
-    const auto tables = tablesOf(scene, seed);
-    ASSERT_EQ(tables.size(), 1U);
-    EXPECT_TRUE(reaches(tables[0], 1.2, -0.48));
-    EXPECT_TRUE(reaches(tables[0], 1.2, 0.48));
-  }
-}
-
 TEST(TableShapes, ALargeFlatBoxIsAnObjectWithOrWithoutSomethingOnIt) {
   for (const bool loaded : {false, true}) {
     BoxScene scene;
