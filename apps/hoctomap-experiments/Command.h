@@ -15,6 +15,7 @@ void addViACommand(CLI::App& app, Action& action);
 void addViBCommand(CLI::App& app, Action& action);
 void addPerformanceCommand(CLI::App& app, Action& action);
 void addChangesCommand(CLI::App& app, Action& action);
+void addIdentityCommand(CLI::App& app, Action& action);
 void addSegmentationCommand(CLI::App& app, Action& action);
 void addMeasureCommand(CLI::App& app, Action& action);
 

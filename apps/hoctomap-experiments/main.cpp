@@ -27,6 +27,7 @@ int main(int argc, char** argv) {
   hoctomap::addViBCommand(app, action);
   hoctomap::addPerformanceCommand(app, action);
   hoctomap::addChangesCommand(app, action);
+  hoctomap::addIdentityCommand(app, action);
   hoctomap::addSegmentationCommand(app, action);
   hoctomap::addMeasureCommand(app, action);
 

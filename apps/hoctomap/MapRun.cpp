@@ -26,7 +26,8 @@ MapRun::MapRun(const Settings& settings, HierarchyMapper& mapper, MapDirectory& 
       directory_(directory),
       log_(log),
       options_(std::move(options)),
-      next_scan_(options_.first_scan) {}
+      next_scan_(options_.first_scan),
+      last_stamp_(options_.last_stamp) {}
 
 void MapRun::run(PipeSource& source, Progress& progress) {
   ScanPipeline pipeline(source, mapper_);
@@ -40,17 +41,28 @@ void MapRun::run(PipeSource& source, Progress& progress) {
       integrate(*motion, next_scan_);
     } else {
       const auto& skipped = std::get<SkippedScan>(next->item);
+      last_stamp_ = skipped.stamp;
       summary_.addSkipped(skipped);
       log_.warn("scans skipped: " + skipped.reason + " (first: scan " + std::to_string(skipped.scan) + ")");
       finishScan(skipped.scan);
     }
     progress.show(summary_.used() + summary_.skipped(), mapper_.hierarchy().size());
   }
+  if (StopSignal::requested() == 0) finishLog();
   commit(false);
   for (const ToldMotion& motion : options_.motions) {
     log_.warn("events: line " + std::to_string(motion.line) +
               " is for later than the last scan and was not used");
   }
+}
+
+/// Nodes that still wait for confirmation: those that enough speaks for enter the map.
+void MapRun::finishLog() {
+  if (next_scan_ == 0) return;
+  const UpdateReport report = mapper_.finish(next_scan_ - 1, last_stamp_);
+  summary_.addReport(report);
+  directory_.appendEnd(report);
+  checkLimits(report);
 }
 
 void MapRun::applyToldMotions(const Measurement& z) {
@@ -69,6 +81,7 @@ void MapRun::applyToldMotions(const Measurement& z) {
 
 void MapRun::integrate(const Measurement& z, PreparedScan prepared, double read_seconds) {
   applyToldMotions(z);
+  last_stamp_ = z.stamp;
   const UpdateReport report = mapper_.integrate(z, std::move(prepared));
   summary_.addUsed(z);
   summary_.addReport(report);
@@ -118,7 +131,8 @@ void MapRun::finishScan(std::uint64_t scan) {
 
 void MapRun::commit(bool keep) {
   const auto start = Clock::now();
-  directory_.commit({mapper_.hierarchy(), mapper_.removed(), next_scan_, options_.input, keep});
+  directory_.commit({mapper_.hierarchy(), mapper_.removed(), next_scan_, options_.input, keep, last_stamp_,
+                     &mapper_.seams()});
   uncommitted_ = 0;
   if (keep) since_snapshot_ = 0;
   summary_.addSeconds("write", secondsSince(start));

@@ -21,6 +21,7 @@ class MapRun {
   struct Options {
     std::string input;                 ///< what the logs and events are known by in the map
     std::uint64_t first_scan = 0;      ///< the first one that is not in the map yet
+    double last_stamp = 0.0;           ///< s, of the one before
     std::uint64_t snapshot_every = 0;  ///< scans; 0: no snapshots
     std::vector<ToldMotion> motions;   ///< that are not in the map yet
   };
@@ -40,6 +41,7 @@ class MapRun {
   void checkLimits(const UpdateReport& report) const;
   void applyToldMotions(const Measurement& z);
   void finishScan(std::uint64_t scan);
+  void finishLog();
   void commit(bool keep);
 
   const Settings& settings_;
@@ -48,6 +50,7 @@ class MapRun {
   RunLog& log_;
   Options options_;
   std::uint64_t next_scan_;
+  double last_stamp_ = 0.0;  ///< s, of the last scan that was mapped
   std::uint64_t uncommitted_ = 0;
   std::uint64_t since_snapshot_ = 0;
   RunSummary summary_;

@@ -2,6 +2,7 @@
 #include "MappingSetup.h"
 
 #include "hoctomap/octree/BlockScanUpdate.h"
+#include "hoctomap/tabletop/LabelRules.h"
 #include "hoctomap/tabletop/Tabletop.h"
 #include "hoctomap/tabletop/TabletopSegmentation.h"
 
@@ -15,8 +16,8 @@ std::unique_ptr<Segmentation> makeSegmentation(const Settings& settings) {
 MappingStrategies makeStrategies(const Settings& settings) {
   MappingStrategies strategies;
   strategies.segmentation = makeSegmentation(settings);
-  strategies.labeling = makeTabletopLabeling();
-  strategies.relations = makeTabletopRelations();
+  strategies.labeling = makeTabletopLabeling(settings.labelRules());
+  strategies.relations = makeTabletopRelations(settings.labelRules());
   strategies.update = makeBlockScanUpdate();
   strategies.association = makeTabletopAssociation(settings.association_margin);
   if (!settings.monolithic) strategies.existence = std::make_unique<BeamExistenceModel>(settings.existence);

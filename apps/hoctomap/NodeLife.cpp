@@ -38,8 +38,9 @@ double priorOf(const std::filesystem::path& directory, const Manifest& manifest,
 }  // namespace
 
 double NodeLife::firstExistence() const {
-  const auto created =
-      std::find_if(events.begin(), events.end(), [](const EventRow& e) { return e.event == "created"; });
+  const auto created = std::find_if(events.begin(), events.end(), [](const EventRow& e) {
+    return e.event == "created" || e.event == "split";
+  });
   return created == events.end() ? record.existence : created->existence;
 }
 

@@ -52,7 +52,11 @@ std::optional<Manifest> committedMap(const BuildOptions& options) {
 HierarchyMapper makeMapper(const Settings& settings, const std::optional<Manifest>& committed,
                            const std::filesystem::path& directory) {
   if (!committed) return {settings.mappingConfig(), settings.labels, makeStrategies(settings)};
-  return {settings.mappingConfig(), settings.labels, makeStrategies(settings), readMap(directory).hierarchy};
+  MapReadOptions options;
+  options.to_go_on = true;
+  StoredMap stored = readMap(directory, options);
+  return {settings.mappingConfig(), settings.labels, makeStrategies(settings), std::move(stored.hierarchy),
+          std::move(stored.seams)};
 }
 
 /// The told motions that a run beginning at `first_scan` has to apply.
@@ -110,7 +114,9 @@ int build(const BuildOptions& options) {
   if (committed) log.info("continuing at scan " + std::to_string(committed->scans));
 
   HierarchyMapper mapper = makeMapper(settings, committed, directory.path());
-  MapRun run(settings, mapper, directory, log, {input, read.resume_at, options.snapshot_every, motions});
+  MapRun run(
+      settings, mapper, directory, log,
+      {input, read.resume_at, committed ? committed->last_stamp : 0.0, options.snapshot_every, motions});
   {
     Progress progress(log, source.totalScans(), options.log.quiet);
     run.run(source, progress);

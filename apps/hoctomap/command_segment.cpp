@@ -12,7 +12,7 @@
 #include "RunSummary.h"
 #include "SegmentWriter.h"
 #include "hoctomap/io/PipeSource.h"
-#include "hoctomap/tabletop/Tabletop.h"
+#include "hoctomap/tabletop/LabelRules.h"
 
 namespace hoctomap {
 
@@ -28,7 +28,7 @@ int segment(const LogOptions& options, bool overwrite) {
   log.writeTo(std::filesystem::path(options.output) / "log.txt");
 
   const auto segmentation = makeSegmentation(settings);
-  const auto labeling = makeTabletopLabeling();
+  const auto labeling = makeTabletopLabeling(settings.labelRules());
   RunSummary summary;
   {
     Progress progress(log, source.totalScans(), options.quiet);

@@ -82,6 +82,14 @@ TEST(Build, AContinuedRunEndsWithTheBytesOfAnUninterruptedOne) {
   test::build(folder / "a.rawlog", folder / "parts", {"--max-scans", "2"});
   test::build(folder / "a.rawlog", folder / "parts", {"--continue"});
   EXPECT_EQ(test::reproducibleFiles(folder / "parts"), test::reproducibleFiles(folder / "whole"));
+  // After one scan no object is confirmed: the end of the log lets them in, and going on takes that back.
+  test::build(folder / "a.rawlog", folder / "one", {"--max-scans", "1"});
+  EXPECT_FALSE(test::nodesOf(folder / "one", "object").empty());
+  test::build(folder / "a.rawlog", folder / "one", {"--continue"});
+  EXPECT_EQ(test::reproducibleFiles(folder / "one"), test::reproducibleFiles(folder / "whole"));
+  test::build(folder / "a.rawlog", folder / "one", {"--continue"});
+  EXPECT_EQ(test::reproducibleFiles(folder / "one"), test::reproducibleFiles(folder / "whole"))
+      << "nothing new";
   // Another configuration contradicts the map; another log is not the one it was built from.
   test::build(folder / "a.rawlog", folder / "parts", {"--continue", "--set", "label.object.resolution=0.004"},
               2);

@@ -107,6 +107,7 @@ TEST(Settings, WrittenIniHoldsEveryKeyOnce) {
   std::size_t expected = 0;
   for (const KeyReference& key : configurationReference()) {
     const bool of_label = key.section == "label.NAME";
+    if (key.section == "label.OWN") continue;  // of labels that are not there by default
     for (const char* label : {"background", "table", "object"}) {
       if (!of_label && label != std::string("table")) continue;
       const std::string name = "[" + (of_label ? std::string("label.") + label : key.section) + "]" + key.key;
@@ -145,6 +146,25 @@ std::string randomValue(const KeyReference& key, std::mt19937_64& rng) {
     text << low + (high - low) * std::pow(10.0, -8.0 * one()) * (0.001 + 0.998 * one());
   }
   return text.str();
+}
+
+TEST(Settings, RulesNameLabelsOfOnesOwn) {
+  const Settings settings =
+      parseSettings(std::string(builtInIni()) + "[label.cup]\nrule = object\nmax_length = 0.14\n", "test");
+  ASSERT_EQ(settings.labelRules().size(), 1U);
+  EXPECT_EQ(settings.labelRules()[0].label, Label{"cup"});
+  EXPECT_EQ(settings.labelRules()[0].rule.max_length, 0.14);
+  EXPECT_TRUE(loadSettings(std::nullopt).labelRules().empty());
+  for (const char* wrong :
+       {"[label.cup]\nrule = plane\n", "[label.cup]\nmax_length = 0.1\nmin_length = 0.2\n",
+        "[label.cup]\nshape = round\n", "[label.cup]\nmin_heigth = 0.1\n"}) {
+    EXPECT_NE(
+        problemsOf([&] { static_cast<void>(parseSettings(std::string(builtInIni()) + wrong, "test")); }), "")
+        << wrong;
+  }
+  // Labels of Eq. 10 need no rule, and have none.
+  EXPECT_NE(problemsOf([&] { static_cast<void>(loadSettings(std::nullopt, {"label.object.rule=object"})); }),
+            "");
 }
 
 TEST(Settings, RandomValidSettingsSurviveTheRoundTrip) {

@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <map>
 #include <memory>
-#include <numeric>
 #include <sstream>
 
 #include "hoctomap/mapping/HierarchyMapper.h"
@@ -31,9 +30,8 @@ struct Scan {
     for (const Piece& piece : pieces) {
       Segment segment;
       segment.structure = piece.structure;
-      segment.points.resize(piece.points.size());
-      std::iota(segment.points.begin(), segment.points.end(),
-                static_cast<std::uint32_t>(z.world_points.size()));
+      for (std::size_t i = 0; i < piece.points.size(); ++i)
+        segment.points.push_back(static_cast<std::uint32_t>(z.world_points.size() + i));
       z.world_points.insert(z.world_points.end(), piece.points.begin(), piece.points.end());
       segments.push_back(std::move(segment));
     }
@@ -71,7 +69,9 @@ inline LabelProfiles profiles() {
 struct Mapper {
   std::shared_ptr<const Scan*> current = std::make_shared<const Scan*>(nullptr);
   std::shared_ptr<std::map<NodeId, Evidence>> evidence = std::make_shared<std::map<NodeId, Evidence>>();
-  HierarchyMapper mapper{MappingConfig{}, profiles(), strategies()};
+  HierarchyMapper mapper;
+
+  explicit Mapper(const MappingConfig& config = {}) : mapper(config, profiles(), strategies()) {}
 
   MappingStrategies strategies() {
     MappingStrategies s;

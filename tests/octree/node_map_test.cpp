@@ -98,6 +98,21 @@ TEST(NodeMap, AbsorbAddsWhatIsOccupiedAndTakesWhatIsUnknown) {
   EXPECT_TRUE(turned.tree().isNodeOccupied(turned.tree().search(-0.05, -0.95, 1.05)));
 }
 
+TEST(NodeMap, GiveHandsOverWhatIsOccupiedAndKeepsTheRest) {
+  NodeMap map = mapOf({{0.05F, 0.05F, 0.05F}, {0.05F, 0.95F, 0.05F}}, 0.1);
+  const VoxelCounts before = map.countVoxels();
+  const float hit = map.tree().getProbHitLog();
+  NodeMap other(0.1, {});
+  map.give(other, Eigen::Isometry3d::Identity(), [](const Eigen::Vector3f& p) { return p.y() > 0.5F; });
+  EXPECT_EQ(map.countVoxels().free, before.free);
+  EXPECT_EQ(map.countVoxels().occupied + other.countVoxels().occupied, before.occupied);
+  EXPECT_EQ(map.tree().search(0.05, 0.95, 0.05), nullptr) << "unknown again";
+  ASSERT_NE(other.tree().search(0.05, 0.95, 0.05), nullptr);
+  EXPECT_FLOAT_EQ(other.tree().search(0.05, 0.95, 0.05)->getLogOdds(), hit);
+  EXPECT_EQ(other.countVoxels().free, 0U);
+  EXPECT_LT(map.occupiedBox().max().y(), 0.5);
+}
+
 TEST(NodeMap, TheBoxForgetsAnOutlierThatIsCleared) {
   NodeMap map = mapOf({{0.05F, 0.05F, 0.05F}, {1.05F, 0.05F, 0.05F}}, 0.1);
   const auto engine = makeReferenceScanUpdate();

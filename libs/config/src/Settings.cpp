@@ -20,6 +20,11 @@ std::string labelSection(const Label& label) {
   return std::string(label_prefix) + label.name;
 }
 
+/// The labels of Eq. 10; others need a rule.
+bool isPlain(const Label& label) {
+  return label == labels::background || label == labels::table || label == labels::object;
+}
+
 bool isLabelName(std::string_view name) {
   constexpr std::string_view allowed = "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_-";
   constexpr std::size_t longest = 64;
@@ -53,10 +58,16 @@ void readLabel(IniDocument& document, const std::string& section, Settings& sett
     document.problem(section, frameKey(), "the frame of the root is the world frame");
   }
   settings.labels[label] = profile;
+  if (isPlain(label)) return;
+  LabelRule rule;
+  for (const auto& key : keys::ruleKeys()) keys::read(document, section, key, rule);
+  keys::checkOrders(document, section, keys::ruleOrders(), keys::ruleKeys(), rule);
+  settings.rules[label] = rule;
 }
 
 void readLabels(IniDocument& document, Settings& settings) {
   settings.labels.clear();
+  settings.rules.clear();
   for (const std::string& section : document.sections()) {
     if (section.starts_with(label_prefix)) readLabel(document, section, settings);
   }
@@ -98,6 +109,9 @@ std::vector<Value> values(Settings settings) {
     for (const auto& key : keys::labelKeys()) {
       all.push_back({labelSection(label), key.name, keys::valueText(key, profile)});
     }
+    if (isPlain(label)) continue;
+    for (const auto& key : keys::ruleKeys())
+      all.push_back({labelSection(label), key.name, keys::valueText(key, settings.rules[label])});
   }
   return all;
 }
@@ -118,11 +132,22 @@ std::string labelDefaults(const keys::Key<LabelProfile>& key) {
 }  // namespace
 
 MappingConfig Settings::mappingConfig() const {
-  MappingConfig config{sensor.max_range, !monolithic, contest_at_surface, {}};
+  MappingConfig config;
+  config.max_range = sensor.max_range;
+  config.bounded = !monolithic;
+  config.contest_at_surface = contest_at_surface;
+  config.seam_votes = seam_votes && !monolithic;
+  config.confirm_scans = static_cast<std::uint64_t>(confirm_scans);
   config.reidentification.enabled = reidentify && !monolithic;
   config.reidentification.noise = existence.noise;
   config.reidentification.least_shift = std::max(config.reidentification.least_shift, existence.pose_shift);
   return config;
+}
+
+std::vector<NamedRule> Settings::labelRules() const {
+  std::vector<NamedRule> named;
+  for (const auto& [label, rule] : rules) named.push_back({label, rule});
+  return named;
 }
 
 Settings::Settings() {
@@ -178,6 +203,11 @@ std::vector<KeyReference> configurationReference() {
   for (const auto& key : keys::labelKeys()) {
     reference.push_back(
         {key.section, key.name, key.unit, labelDefaults(key), keys::rangeText(key), key.description});
+  }
+  LabelRule rule;
+  for (const auto& key : keys::ruleKeys()) {
+    reference.push_back(
+        {key.section, key.name, key.unit, keys::valueText(key, rule), keys::rangeText(key), key.description});
   }
   return reference;
 }

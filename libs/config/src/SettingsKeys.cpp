@@ -28,6 +28,7 @@ using L = Limits;
 using P = LabelProfile;
 using O = OccupancyModel;
 using X = ExistenceParameters;
+using R = LabelRule;
 
 constexpr Range any{};
 constexpr Range share{0.0, 1.0};
@@ -61,12 +62,22 @@ constexpr auto settings_keys = std::to_array<Key<Settings>>({
      {},
      "Of several segments of a scan whose boxes meet that of one node, only those at its surface join it",
      &at<&S::contest_at_surface>},
+    {"mapping", "seam_votes", "", any,
+     "What a node is goes by surfaces and by the votes of all scans on where objects meet: segments that "
+     "bridge "
+     "nodes are divided, nodes are split and merged",
+     &at<&S::seam_votes>},
     {"mapping",
      "reidentify",
      "",
      {},
      "An object that lost its place and a new segment of the same shape are one object that was moved",
      &at<&S::reidentify>},
+    {"mapping", "confirm_scans", "scans", count,
+     "Scans that must show an object before its node enters the map; until then it is held back, with all "
+     "that is "
+     "measured of it",
+     &at<&S::confirm_scans>},
     {"mapping", "checkpoint_scans", "scans", count,
      "The map is committed to disk after every so many scans; a killed run loses no more",
      &at<&S::checkpoint_scans>},
@@ -134,8 +145,9 @@ constexpr auto settings_keys = std::to_array<Key<Settings>>({
      &at<&S::tabletop, &T::attach_strays>},
 
     {"existence", "pose_shift", "m", within(0, 1),
-     "Largest sideways error of the pose of a node or scan that is searched out; 0.006 for a fixed camera, "
-     "0.03 for a hand-held one",
+     "Largest sideways error of the pose of a node or scan that is searched out, and the smallest motion of "
+     "an "
+     "object that is believed; 0.006 for a fixed camera, 0.03 for a hand-held one",
      &at<&S::existence, &E::pose_shift>},
     {"existence", "pose_depth", "m", within(0, 1), "The same error along the beam",
      &at<&S::existence, &E::pose_depth>},
@@ -230,8 +242,47 @@ constexpr auto label_orders = std::to_array<Order<LabelProfile>>({
     {&at<&P::existence, &X::prior>, &at<&P::existence, &X::p_present>, true},
 });
 
+constexpr auto rule_keys = std::to_array<Key<LabelRule>>({
+    {"label.OWN", "rule", "", any,
+     "What the limits below name: nothing, clusters, which count as "
+     "objects, or planes, which count as tables",
+     &at<&R::kind>},
+    {"label.OWN", "rule_rank", "", within(0, 1000),
+     "Rules are asked by rank, then by label; the first that fits names", &at<&R::rank>},
+    {"label.OWN", "min_length", "m", within(0, 1000),
+     "Larger side in the plan of the upright box around a segment", &at<&R::min_length>},
+    {"label.OWN", "max_length", "m", above(0), "See `min_length`", &at<&R::max_length>, true},
+    {"label.OWN", "min_width", "m", within(0, 1000), "Smaller side of that box in the plan",
+     &at<&R::min_width>},
+    {"label.OWN", "max_width", "m", above(0), "See `min_width`", &at<&R::max_width>, true},
+    {"label.OWN", "min_height", "m", within(0, 1000), "From the lowest to the highest point of a segment",
+     &at<&R::min_height>},
+    {"label.OWN", "max_height", "m", above(0), "See `min_height`", &at<&R::max_height>, true},
+    {"label.OWN", "min_elevation", "m", within(-1000, 1000), "z of the lowest point in the world frame",
+     &at<&R::min_elevation>},
+    {"label.OWN", "max_elevation", "m", within(-1000, 1000), "See `min_elevation`", &at<&R::max_elevation>},
+    {"label.OWN", "shape", "", any,
+     "Proportions: flat, height below a third of the length; tall, height above one and a half lengths; "
+     "compact, in "
+     "between",
+     &at<&R::shape>},
+});
+
+constexpr auto rule_orders = std::to_array<Order<LabelRule>>({
+    {&at<&R::min_length>, &at<&R::max_length>, true},
+    {&at<&R::min_width>, &at<&R::max_width>, true},
+    {&at<&R::min_height>, &at<&R::max_height>, true},
+    {&at<&R::min_elevation>, &at<&R::max_elevation>, true},
+});
+
 }  // namespace
 
+std::span<const Key<LabelRule>> ruleKeys() {
+  return rule_keys;
+}
+std::span<const Order<LabelRule>> ruleOrders() {
+  return rule_orders;
+}
 std::span<const Key<Settings>> settingsKeys() {
   return settings_keys;
 }

@@ -12,9 +12,10 @@ namespace hoctomap::keys {
 
 /// Where a value lives in its owner (Settings or LabelProfile); the type of the value is the type of the key.
 template <class Owner>
-using Access = std::variant<double& (*)(Owner&), int& (*)(Owner&), std::int64_t& (*)(Owner&),
-                            std::uint64_t& (*)(Owner&), bool& (*)(Owner&), SegmentationMethod& (*)(Owner&),
-                            FrameChoice& (*)(Owner&), Carve& (*)(Owner&), Grazing& (*)(Owner&)>;
+using Access =
+    std::variant<double& (*)(Owner&), int& (*)(Owner&), std::int64_t& (*)(Owner&), std::uint64_t& (*)(Owner&),
+                 bool& (*)(Owner&), SegmentationMethod& (*)(Owner&), FrameChoice& (*)(Owner&),
+                 Carve& (*)(Owner&), Grazing& (*)(Owner&), RuleKind& (*)(Owner&), RuleShape& (*)(Owner&)>;
 
 /// One row of the table of keys, the only place where a key is spelled.
 template <class Owner>
@@ -40,6 +41,9 @@ struct Order {
 [[nodiscard]] std::span<const Order<Settings>> settingsOrders();
 [[nodiscard]] std::span<const Key<LabelProfile>> labelKeys();
 [[nodiscard]] std::span<const Order<LabelProfile>> labelOrders();
+/// Of labels other than background, table and object.
+[[nodiscard]] std::span<const Key<LabelRule>> ruleKeys();
+[[nodiscard]] std::span<const Order<LabelRule>> ruleOrders();
 
 /// The profile that a label's section starts from.
 [[nodiscard]] LabelProfile defaultProfile(const Label& label);

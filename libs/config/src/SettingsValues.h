@@ -25,6 +25,8 @@ template <class T>
   if constexpr (std::is_same_v<T, SegmentationMethod>) return {"euclidean", "convex_patches"};
   if constexpr (std::is_same_v<T, FrameChoice>) return {"world", "pca"};
   if constexpr (std::is_same_v<T, Carve>) return {"own", "scan"};
+  if constexpr (std::is_same_v<T, RuleKind>) return {"none", "object", "table"};
+  if constexpr (std::is_same_v<T, RuleShape>) return {"any", "flat", "compact", "tall"};
   if constexpr (std::is_same_v<T, Grazing>) return {"clear", "spare"};
   return {};
 }

@@ -91,7 +91,7 @@ std::vector<NodeId> RelationSet::candidateAncestors(const MapHierarchy& hierarch
                                                     const NodeView& below) const {  // Eq. (6)
   std::vector<NodeId> candidates;
   for (const NodeId id : hierarchy.ids()) {
-    if (!mayHold(hierarchy.node(id).label(), below.label)) continue;
+    if (hierarchy.node(id).confirmation.waits || !mayHold(hierarchy.node(id).label(), below.label)) continue;
     if (holds(hierarchy.view(id), below)) candidates.push_back(id);
   }
   return candidates;
@@ -120,6 +120,7 @@ bool RelationSet::isBetter(const MapHierarchy& hierarchy, NodeId candidate, Node
 bool RelationSet::adopts(const MapHierarchy& hierarchy, NodeId above, NodeId below) const {
   const MapNode& node = hierarchy.node(below);
   if (!node.parent() || *node.parent() == above) return false;
+  if (hierarchy.node(above).confirmation.waits) return false;
   if (!mayHold(hierarchy.node(above).label(), node.label())) return false;
   const NodeView view = hierarchy.view(below);
   if (!holds(hierarchy.view(above), view) || isInSubtree(hierarchy, above, below)) return false;

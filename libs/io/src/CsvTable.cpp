@@ -42,18 +42,22 @@ void CsvTable::resume(const std::filesystem::path& directory,
   }
 }
 
+FileRecord CsvTable::record() const {
+  Sha256 hash = accepted_hash_.copy();
+  hash.add(pending_);
+  return {name_, accepted_bytes_ + pending_.size(), hash.hex()};
+}
+
 FileRecord CsvTable::write(const Disk& disk, const std::filesystem::path& directory) const {
   if (fresh_) {
     disk.replace(directory / name_, pending_);
-    return {name_, pending_.size(), sha256Hex(pending_)};
+    return record();
   }
   // Also without pending rows: what a failed commit has left there goes.
   if (std::filesystem::file_size(directory / name_) != accepted_bytes_ || !pending_.empty()) {
     disk.extend(directory / name_, accepted_bytes_, pending_);
   }
-  Sha256 hash = accepted_hash_.copy();
-  hash.add(pending_);
-  return {name_, accepted_bytes_ + pending_.size(), hash.hex()};
+  return record();
 }
 
 void CsvTable::accept() {

@@ -29,6 +29,9 @@ class CsvTable {
   /// Adds a row, given without its line end.
   void add(const std::string& row) { pending_ += row + '\n'; }
 
+  /// The table as it is now, pending rows included.
+  [[nodiscard]] FileRecord record() const;
+
   /// Writes the pending rows. May be repeated until `accept()`.
   [[nodiscard]] FileRecord write(const Disk& disk, const std::filesystem::path& directory) const;
   /// What `write` wrote belongs to the map now.

@@ -92,7 +92,20 @@ void readBox(const YamlSection& section, NodeRecord& node) {
   }
 }
 
-NodeRecord readNode(const YamlSection& section, bool removed) {
+/// Which list of the manifest a node is in.
+enum class NodeList { tree, removed, waiting };
+
+Confirmation readConfirmation(const YamlSection& section, NodeList list) {
+  Confirmation confirmation;
+  if (list != NodeList::waiting && !section.has("held_back")) return confirmation;
+  confirmation.waits = list == NodeList::waiting;
+  confirmation.entered_at_end = list == NodeList::tree;
+  confirmation.shown = section["held_back"]["shown"].count();
+  confirmation.missed = section["held_back"]["missed"].count();
+  return confirmation;
+}
+
+NodeRecord readNode(const YamlSection& section, NodeList list) {
   NodeRecord node;
   node.id = readId(section["id"]);
   node.label.name = section["label"].text();
@@ -114,20 +127,21 @@ NodeRecord readNode(const YamlSection& section, bool removed) {
   node.votes.apart = votes["apart"].count();
   node.votes.joined = votes["joined"].count();
   node.votes.with = NodeId{static_cast<std::uint32_t>(votes["with"].count())};
-  if (removed) node.removed_scan = section["removed_scan"].count();
+  node.confirmation = readConfirmation(section, list);
+  if (list == NodeList::removed) node.removed_scan = section["removed_scan"].count();
   node.occupancy = readOccupancy(section["occupancy"]);
   node.ot = readFile(section["files"]["ot"]);
   node.bt = readFile(section["files"]["bt"]);
   return node;
 }
 
-std::vector<NodeRecord> readNodes(const YamlSection& section, bool removed, const std::string& name) {
+std::vector<NodeRecord> readNodes(const YamlSection& section, NodeList list, const std::string& name) {
   std::vector<NodeRecord> nodes;
   for (const YamlSection& item : section.items()) {
     if (nodes.size() >= kMaxMapNodes) {
       throw LimitError(name + ": a map may have " + std::to_string(kMaxMapNodes) + " nodes at most");
     }
-    nodes.push_back(readNode(item, removed));
+    nodes.push_back(readNode(item, list));
   }
   return nodes;
 }
@@ -145,6 +159,7 @@ Manifest readDocument(const YamlSection& document, const std::string& name) {
   Manifest manifest;
   manifest.generator = document["generator"].text();
   manifest.scans = document["scans"].count();
+  if (document.has("last_stamp")) manifest.last_stamp = document["last_stamp"].number();
   manifest.config_sha256 = document["config_sha256"].text();
   manifest.input = document["input"].text();
   manifest.next_id = readId(document["next_id"]);
@@ -152,9 +167,12 @@ Manifest readDocument(const YamlSection& document, const std::string& name) {
   manifest.config = readFile(files["config"]);
   manifest.events = readFile(files["events"]);
   manifest.existence = readFile(files["existence"]);
+  if (files.has("events_before_end")) manifest.events_before_end = readFile(files["events_before_end"]);
+  if (files.has("seams")) manifest.seams = readFile(files["seams"]);
   if (files.has("scene")) manifest.scene = readFile(files["scene"]);
-  manifest.nodes = orderedTree(readNodes(document["nodes"], false, name), name);
-  manifest.removed = readNodes(document["removed"], true, name);
+  manifest.nodes = orderedTree(readNodes(document["nodes"], NodeList::tree, name), name);
+  manifest.removed = readNodes(document["removed"], NodeList::removed, name);
+  if (document.has("waiting")) manifest.waiting = readNodes(document["waiting"], NodeList::waiting, name);
   checkIds(manifest, name);
   return manifest;
 }

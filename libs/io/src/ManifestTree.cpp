@@ -105,14 +105,20 @@ std::vector<NodeRecord> orderedTree(std::vector<NodeRecord> nodes, const std::st
 
 void checkIds(const Manifest& manifest, const std::string& name) {
   std::set<NodeId> ids;
-  for (const auto* list : {&manifest.nodes, &manifest.removed}) {
+  for (const auto* list : {&manifest.nodes, &manifest.removed, &manifest.waiting}) {
     for (const NodeRecord& node : *list) {
       if (!ids.insert(node.id).second) {
-        throw MapError(name + ": removed: id " + text(node.id) + " occurs twice");
+        throw MapError(name + ": removed, waiting: id " + text(node.id) + " occurs twice");
       }
       if (node.id >= manifest.next_id) {
         throw MapError(name + ": next_id: " + text(manifest.next_id) + " is not above id " + text(node.id));
       }
+    }
+  }
+  for (const NodeRecord& node : manifest.waiting) {
+    if (!node.parent || manifest.find(*node.parent) == nullptr || !node.children.empty()) {
+      throw MapError(name + ": waiting: node " + text(node.id) +
+                     ": must hang under a node of the tree, alone");
     }
   }
 }

@@ -65,6 +65,10 @@ std::string nodeText(const NodeRecord& node) {
   text += "    votes: {apart: " + std::to_string(node.votes.apart) +
           ", joined: " + std::to_string(node.votes.joined) +
           ", with: " + std::to_string(node.votes.with.value) + "}\n";
+  if (node.confirmation.waits || node.confirmation.entered_at_end) {
+    text += "    held_back: {shown: " + std::to_string(node.confirmation.shown) +
+            ", missed: " + std::to_string(node.confirmation.missed) + "}\n";
+  }
   if (node.removed_scan) text += count("removed_scan", *node.removed_scan);
   text += line("occupancy", occupancyText(node.occupancy));
   text += "    files:\n      ot: " + fileText(node.ot) + "\n      bt: " + fileText(node.bt) + "\n";
@@ -85,13 +89,19 @@ std::string toYaml(const Manifest& manifest) {
   text += "format_version: " + std::to_string(manifest.format_version) + "\n";
   text += "generator: " + yamlText(manifest.generator) + "\n";
   text += "scans: " + std::to_string(manifest.scans) + "\n";
+  text += "last_stamp: " + yamlNumber(manifest.last_stamp) + "\n";
   text += "config_sha256: " + yamlText(manifest.config_sha256) + "\n";
   text += "input: " + yamlText(manifest.input) + "\n";
   text += "next_id: " + std::to_string(manifest.next_id.value) + "\n";
   text += "files:\n  config: " + fileText(manifest.config) + "\n  events: " + fileText(manifest.events) +
           "\n  existence: " + fileText(manifest.existence) + "\n";
+  if (manifest.events_before_end) {
+    text += "  events_before_end: " + fileText(*manifest.events_before_end) + "\n";
+  }
+  if (manifest.seams) text += "  seams: " + fileText(*manifest.seams) + "\n";
   if (manifest.scene) text += "  scene: " + fileText(*manifest.scene) + "\n";
-  return text + nodesText("nodes", manifest.nodes) + nodesText("removed", manifest.removed);
+  return text + nodesText("nodes", manifest.nodes) + nodesText("removed", manifest.removed) +
+         nodesText("waiting", manifest.waiting);
 }
 
 }  // namespace hoctomap

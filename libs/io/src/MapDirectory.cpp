@@ -8,6 +8,7 @@
 #include "MapSession.h"
 #include "NumberText.h"
 #include "PreviousMap.h"
+#include "SeamsFile.h"
 #include "hoctomap/geometry/Errors.h"
 #include "hoctomap/io/CsvText.h"
 #include "hoctomap/io/Sha256.h"
@@ -23,6 +24,9 @@ const std::optional<Manifest>& MapDirectory::committed() const {
 }
 void MapDirectory::append(const UpdateReport& report) {
   session_->addRows(report);
+}
+void MapDirectory::appendEnd(const UpdateReport& report) {
+  session_->addEnd(report);
 }
 void MapDirectory::append(const TimingRow& row) {
   session_->addRow(row);
@@ -49,6 +53,12 @@ void MapDirectory::Session::addRows(const UpdateReport& report) {
   }
 }
 
+void MapDirectory::Session::addEnd(const UpdateReport& report) {
+  if (report.events.empty()) return;
+  events_before_end_ = events_.record();
+  addRows(report);
+}
+
 void MapDirectory::Session::addRow(const TimingRow& row) {
   std::string text = std::to_string(row.scan) + "," + std::to_string(row.points);
   for (const double seconds : {row.read_s, row.stages.segment, row.stages.associate, row.stages.update,
@@ -65,6 +75,8 @@ void MapDirectory::Session::commit(const MapState& state) {
   if (!config_written_) disk_.replace(directory_ / kConfigName, options_.config);
   config_written_ = true;
   manifest.events = events_.write(disk_, directory_);
+  manifest.events_before_end = events_before_end_;
+  manifest.seams = writeSeams(state);
   manifest.existence = existence_.write(disk_, directory_);
   static_cast<void>(timing_.write(disk_, directory_));
   disk_.syncDirectory(directory_ / kNodesFolder);
@@ -73,6 +85,17 @@ void MapDirectory::Session::commit(const MapState& state) {
   commitManifest(manifest, state.keep && state.scans > 0);
 
   removeUnnamedFiles();
+}
+
+/// Named by the scan, as a node's file is: never changed once it is written.
+std::optional<FileRecord> MapDirectory::Session::writeSeams(const MapState& state) {
+  if (state.seams == nullptr || state.seams->all().empty()) return std::nullopt;
+  const std::string bytes = seamsText(*state.seams);
+  const FileRecord record{std::string(kNodesFolder) + "/" + seamsFileName(state.scans), bytes.size(),
+                          sha256Hex(bytes)};
+  const bool is_there = committed_ && committed_->seams == record;
+  if (!is_there) disk_.replace(directory_ / record.path, bytes);
+  return record;
 }
 
 /// A new map takes the place of an old one: see PreviousMap.h.
@@ -93,16 +116,22 @@ void MapDirectory::Session::writeNodes(const MapState& state) {
 
 Manifest MapDirectory::Session::describe(const MapState& state) {
   writeNodes(state);
+  const auto waits = [&](NodeId id) { return state.hierarchy.node(id).confirmation.waits; };
+  const auto byId = [](const NodeRecord& a, const NodeRecord& b) { return a.id < b.id; };
   Manifest manifest;
   manifest.generator = options_.generator;
   manifest.scans = state.scans;
+  manifest.last_stamp = state.last_stamp;
   manifest.config_sha256 = sha256Hex(options_.config);
   manifest.config = {kConfigName, options_.config.size(), manifest.config_sha256};
   manifest.input = state.input;
   manifest.next_id = state.hierarchy.nextId();
   for (const NodeId id : state.hierarchy.preorder()) {
-    manifest.nodes.push_back(node_files_.record(state.hierarchy.node(id), state.hierarchy.world_T_node(id)));
+    NodeRecord record = node_files_.record(state.hierarchy.node(id), state.hierarchy.world_T_node(id));
+    std::erase_if(record.children, [&](NodeId child) { return waits(child); });
+    (waits(id) ? manifest.waiting : manifest.nodes).push_back(std::move(record));
   }
+  std::sort(manifest.waiting.begin(), manifest.waiting.end(), byId);
   manifest.removed = removed_before_;
   for (const RemovedNode& removed : state.removed) {
     NodeRecord record = node_files_.record(removed.node, removed.world_T_node);
@@ -110,8 +139,7 @@ Manifest MapDirectory::Session::describe(const MapState& state) {
     record.removed_scan = removed.removed_scan;
     manifest.removed.push_back(std::move(record));
   }
-  std::sort(manifest.removed.begin(), manifest.removed.end(),
-            [](const NodeRecord& a, const NodeRecord& b) { return a.id < b.id; });
+  std::sort(manifest.removed.begin(), manifest.removed.end(), byId);
   return manifest;
 }
 
@@ -135,7 +163,7 @@ void MapDirectory::Session::removeUnnamedFiles() {
     std::set<std::string> named = kept_files_;
     for (const FileRecord& file : committed_->files()) named.insert(file.path);
     for (const std::string& name : listDirectory(directory_ / kNodesFolder)) {
-      const bool ours = isNodeFileName(name) || isOurTemporary(name);
+      const bool ours = isNodeFileName(name) || isSeamsFileName(name) || isOurTemporary(name);
       const std::string path = std::string(kNodesFolder) + "/" + name;
       if (ours && !named.contains(path)) disk_.remove(directory_ / path);
     }

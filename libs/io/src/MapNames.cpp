@@ -32,6 +32,19 @@ bool isNodeFileName(const std::string& name) {
          isPaddedNumber(text.substr(dash + 1, text.size() - dash - 4));
 }
 
+std::string seamsFileName(std::uint64_t scans) {
+  return "seams-" + padded(scans, kDigits) + ".csv";
+}
+
+bool isSeamsFileName(const std::string& name) {
+  constexpr std::string_view kBegin = "seams-";
+  constexpr std::string_view kEnd = ".csv";
+  const std::string_view text = name;
+  if (!text.starts_with(kBegin) || !text.ends_with(kEnd) || text.size() < kBegin.size() + kEnd.size())
+    return false;
+  return isPaddedNumber(text.substr(kBegin.size(), text.size() - kBegin.size() - kEnd.size()));
+}
+
 std::string snapshotName(std::uint64_t scan) {
   return std::string(kSnapshotBegin) + padded(scan, kDigits) + std::string(kSnapshotEnd);
 }

@@ -26,6 +26,8 @@ inline constexpr const char* kPreviousFolder = "previous";
 /// `NNNNNN-VVVVVV`, without extension.
 [[nodiscard]] std::string nodeFileStem(NodeId id, std::uint64_t version);
 /// Whether a file of this name in `nodes/` can only be ours.
+[[nodiscard]] std::string seamsFileName(std::uint64_t scans);
+[[nodiscard]] bool isSeamsFileName(const std::string& name);
 [[nodiscard]] bool isNodeFileName(const std::string& name);
 
 /// Manifest of the state after scan `scan`, kept for good.

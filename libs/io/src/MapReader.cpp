@@ -7,6 +7,7 @@
 
 #include "Disk.h"
 #include "MapNames.h"
+#include "SeamsFile.h"
 #include "hoctomap/geometry/Errors.h"
 #include "hoctomap/io/OctreeFile.h"
 #include "hoctomap/io/Sha256.h"
@@ -57,6 +58,7 @@ void setState(MapNode& node, const NodeRecord& record) {
   node.last_scan = record.last_scan;
   node.version = record.version;
   node.votes = record.votes;
+  node.confirmation = record.confirmation;
 }
 
 MapHierarchy readHierarchy(const std::filesystem::path& directory, const Manifest& manifest) {
@@ -73,6 +75,21 @@ MapHierarchy readHierarchy(const std::filesystem::path& directory, const Manifes
   return hierarchy;
 }
 
+/// What a run that goes on begins with: also the nodes that wait for confirmation, among them those that only
+/// the end of the log has let in.
+void holdBack(const std::filesystem::path& directory, const Manifest& manifest, MapHierarchy& hierarchy) {
+  for (const NodeRecord& record : manifest.waiting) {
+    setState(hierarchy.restore(record.id, record.label, readNodeMap(directory, record), record.parent_T_node,
+                               *record.parent),
+             record);
+  }
+  for (const NodeId id : hierarchy.ids()) {
+    Confirmation& confirmation = hierarchy.node(id).confirmation;
+    if (confirmation.entered_at_end) confirmation = {true, false, confirmation.shown, confirmation.missed};
+  }
+  hierarchy.setNextId(manifest.next_id);
+}
+
 RemovedNode readRemoved(const std::filesystem::path& directory, const NodeRecord& record) {
   // Only a hierarchy gives a node its transform: hang it into one of its own and take it out again.
   MapHierarchy scratch(labels::background, NodeMap(record.resolution, record.occupancy));
@@ -86,8 +103,9 @@ RemovedNode readRemoved(const std::filesystem::path& directory, const NodeRecord
 
 std::vector<FileRecord> Manifest::files() const {
   std::vector<FileRecord> all{config, events, existence};
+  if (seams) all.push_back(*seams);
   if (scene) all.push_back(*scene);
-  for (const auto* list : {&nodes, &removed}) {
+  for (const auto* list : {&nodes, &removed, &waiting}) {
     for (const NodeRecord& node : *list) {
       all.push_back(node.ot);
       all.push_back(node.bt);
@@ -121,11 +139,17 @@ Manifest readManifest(const std::filesystem::path& directory, std::optional<std:
 StoredMap readMap(const std::filesystem::path& directory, const MapReadOptions& options) {
   Manifest manifest = readManifest(directory, options.at_scan);
   MapHierarchy hierarchy = readHierarchy(directory, manifest);
+  if (options.to_go_on) holdBack(directory, manifest, hierarchy);
+  SeamVotes seams;
+  if (options.to_go_on && manifest.seams) {
+    seams = parseSeams(readChecked(directory, *manifest.seams, false),
+                       (directory / manifest.seams->path).string());
+  }
   std::vector<RemovedNode> removed;
   if (options.removed) {
     for (const NodeRecord& record : manifest.removed) removed.push_back(readRemoved(directory, record));
   }
-  return {std::move(manifest), std::move(hierarchy), std::move(removed)};
+  return {std::move(manifest), std::move(hierarchy), std::move(removed), std::move(seams)};
 }
 
 std::vector<Damage> findDamage(const std::filesystem::path& directory, const Manifest& manifest) {

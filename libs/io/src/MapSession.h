@@ -20,6 +20,7 @@ class MapDirectory::Session {
   Session(std::filesystem::path directory, MapDirectoryOptions options);
 
   void addRows(const UpdateReport& report);
+  void addEnd(const UpdateReport& report);
   void addRow(const TimingRow& row);
   void commit(const MapState& state);
   void writeScene(const SceneMaker& maker);
@@ -37,6 +38,7 @@ class MapDirectory::Session {
 
   // Committing.
   void makeWay();
+  [[nodiscard]] std::optional<FileRecord> writeSeams(const MapState& state);
   void writeNodes(const MapState& state);
   [[nodiscard]] Manifest describe(const MapState& state);
   void commitManifest(const Manifest& manifest, bool keep);
@@ -54,6 +56,7 @@ class MapDirectory::Session {
   bool overwriting_ = false;     ///< until the first commit
   std::optional<Manifest> old_;  ///< the map that is overwritten, if it is one
   bool config_written_ = false;
+  std::optional<FileRecord> events_before_end_;
   std::vector<NodeRecord> removed_before_;  ///< by earlier sessions
   std::set<std::string> kept_files_;        ///< that kept manifests name
 };

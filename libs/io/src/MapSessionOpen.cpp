@@ -98,13 +98,13 @@ void MapDirectory::Session::resume() {
   Manifest manifest = readManifest(directory_);
   checkSameConfig(manifest);
   manifest = bringBack(disk_, directory_, std::move(manifest));
-  events_.resume(directory_, manifest.events);
+  events_.resume(directory_, manifest.events_before_end.value_or(manifest.events));
   existence_.resume(directory_, manifest.existence);
   timing_.resume(directory_, [&](std::string_view scan) {
     const auto number = parseCount(scan);
     return !number || *number < manifest.scans;  // the header row, and scans that need not be repeated
   });
-  for (const auto* nodes : {&manifest.nodes, &manifest.removed}) {
+  for (const auto* nodes : {&manifest.nodes, &manifest.removed, &manifest.waiting}) {
     for (const NodeRecord& node : *nodes) node_files_.know(node);
   }
   removed_before_ = manifest.removed;

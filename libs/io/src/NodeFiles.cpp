@@ -86,6 +86,7 @@ NodeRecord NodeFiles::record(const MapNode& node, const Pose& world_T_node) cons
   record.last_scan = node.last_scan;
   record.version = node.version;
   record.votes = node.votes;
+  record.confirmation = node.confirmation;
   record.occupancy = node.map().model();
   record.ot = contents.ot;
   record.bt = contents.bt;

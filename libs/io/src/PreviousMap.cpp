@@ -19,8 +19,9 @@ bool isAside(const std::string& path) {
 
 void forEachFile(Manifest& manifest, const std::function<void(FileRecord&)>& visit) {
   for (FileRecord* file : {&manifest.config, &manifest.events, &manifest.existence}) visit(*file);
+  if (manifest.seams) visit(*manifest.seams);
   if (manifest.scene) visit(*manifest.scene);
-  for (auto* list : {&manifest.nodes, &manifest.removed}) {
+  for (auto* list : {&manifest.nodes, &manifest.removed, &manifest.waiting}) {
     for (NodeRecord& node : *list) {
       visit(node.ot);
       visit(node.bt);
@@ -60,7 +61,8 @@ Manifest bringBack(const Disk& disk, const std::filesystem::path& directory, Man
     if (!isAside(file.path)) return;
     changed = true;
     const std::string name = file.path.substr(kPrefix.size());
-    rename(disk, directory, file, isNodeFileName(name) ? std::string(kNodesFolder) + "/" + name : name);
+    rename(disk, directory, file,
+           isNodeFileName(name) || isSeamsFileName(name) ? std::string(kNodesFolder) + "/" + name : name);
   });
   if (changed) commitNames(disk, directory, manifest);
   return manifest;
@@ -73,7 +75,8 @@ void removePrevious(const Disk& disk, const std::filesystem::path& directory, co
   }
   const std::set<std::string> fixed{kConfigName, kEventsName, kExistenceName, kSceneName};
   for (const std::string& name : listDirectory(directory / kPreviousFolder)) {
-    const bool ours = fixed.contains(name) || isNodeFileName(name) || isOurTemporary(name);
+    const bool ours =
+        fixed.contains(name) || isNodeFileName(name) || isSeamsFileName(name) || isOurTemporary(name);
     if (ours && !named.contains(kPrefix + name)) disk.remove(directory / kPreviousFolder / name);
   }
   std::error_code not_empty;  // somebody else's file in it: stays

@@ -37,11 +37,16 @@ HierarchyMapper::HierarchyMapper(MappingConfig config, LabelProfiles profiles, M
     : HierarchyMapper(config, profiles, std::move(strategies), makeRoot(profiles)) {}
 
 HierarchyMapper::HierarchyMapper(MappingConfig config, LabelProfiles profiles, MappingStrategies strategies,
-                                 MapHierarchy hierarchy)
+                                 MapHierarchy hierarchy, SeamVotes seams)
     : config_(config),
       profiles_(std::move(profiles)),
       strategies_(std::move(strategies)),
-      hierarchy_(std::move(hierarchy)) {}
+      hierarchy_(std::move(hierarchy)),
+      seams_(std::move(seams)) {
+  for (const NodeId id : hierarchy_.ids()) {
+    if (std::as_const(hierarchy_).node(id).confirmation.waits) waiting_.insert(id);
+  }
+}
 
 UpdateReport HierarchyMapper::integrate(const Measurement& z, PreparedScan prepared) {
   UpdateReport report;
@@ -64,6 +69,7 @@ UpdateReport HierarchyMapper::integrate(const Measurement& z, PreparedScan prepa
   {
     const StageTimer timer(report.seconds.associate);
     followMovedObjects(z, parts, evidence, report);
+    if (config_.seam_votes) settleIdentity(z, parts, evidence, report);
   }
 
   // The background first, then planes, then clusters: so that parents exist when their children come.
@@ -93,6 +99,7 @@ UpdateReport HierarchyMapper::integrate(const Measurement& z, PreparedScan prepa
   // Eq. 8: nodes whose probability of existence falls below 0.5 are removed.
   const StageTimer timer(report.seconds.existence);
   applyExistence(z, evidence, report);
+  confirmNodes(parts, evidence, report);
   return report;
 }
 
@@ -155,7 +162,9 @@ std::vector<std::optional<NodeId>> HierarchyMapper::associateByBox(const std::ve
   if (config_.contest_at_surface) releaseStrangers(hierarchy_, segments);
   std::vector<std::optional<NodeId>> nodes;
   for (std::size_t i = 0; i < parts.size(); ++i) {
-    nodes.push_back(parts[i]->moved_node ? parts[i]->moved_node : segments[i].node);
+    nodes.push_back(parts[i]->moved_node ? parts[i]->moved_node
+                    : parts[i]->is_new   ? std::nullopt
+                                         : segments[i].node);
   }
   return nodes;
 }
@@ -173,19 +182,22 @@ std::vector<NodeId> HierarchyMapper::associate(const Measurement& z, const std::
   return nodes;
 }
 
-NodeId HierarchyMapper::createNode(const Measurement& z, const LabelledPart& part, UpdateReport& report) {
+NodeId HierarchyMapper::createNode(const Measurement& z, const LabelledPart& part, UpdateReport& report,
+                                   const std::optional<Pose>& frame) {
   const LabelProfile& p = profile(part.label);
   const NodeId parent = strategies_.relations.deepestAncestor(hierarchy_, {part.label, part.box, nullptr});
   // IV-A: the frame comes from the first measurement that is integrated into the node.
-  Pose world_T_node = pcaFrame(part.world_points);
-  if (p.frame == FrameChoice::world) world_T_node.setYawPitchRoll(0.0, 0.0, 0.0);
+  Pose world_T_node = frame ? *frame : pcaFrame(part.world_points);
+  if (!frame && p.frame == FrameChoice::world) world_T_node.setYawPitchRoll(0.0, 0.0, 0.0);
   const NodeId id = hierarchy_.add(part.label, NodeMap(p.resolution, p.occupancy), world_T_node, parent);
   MapNode& node = hierarchy_.node(id);
   node.first_scan = node.last_scan = node.version = z.scan;
   node.existence_log_odds = ExistenceFilter(p.existence).initialLogOdds();
-  report.events.push_back(
-      {NodeEventKind::created, id, part.label, node.existence(),
-       std::to_string(part.points.size()) + " points, parent " + std::to_string(parent.value)});
+  // What stands on something is held back until other views confirm it.
+  node.confirmation.waits = part.structure == Structure::cluster && config_.confirm_scans > 1;
+  if (node.confirmation.waits) waiting_.insert(id);
+  note(report, NodeEventKind::created, id,
+       std::to_string(part.points.size()) + " points, parent " + std::to_string(parent.value));
   return id;
 }
 
@@ -222,8 +234,7 @@ void HierarchyMapper::updateMaps(const Measurement& z, const std::vector<Labelle
     if (node.first_scan == z.scan && node.id() != kRootId) {
       created.push_back(node.id());
     } else {
-      report.events.push_back({NodeEventKind::updated, node.id(), node.label(), node.existence(),
-                               std::to_string(updates[i].points.size()) + " points"});
+      note(report, NodeEventKind::updated, node.id(), std::to_string(updates[i].points.size()) + " points");
     }
   }
   adoptRelated(created);

@@ -8,6 +8,7 @@
 #include "NodeEvidence.h"
 #include "PieceVoting.h"
 #include "ReplacedObjects.h"
+#include "SurfacePoints.h"
 
 namespace hoctomap {
 
@@ -39,7 +40,7 @@ void HierarchyMapper::followMovedObjects(const Measurement& z, std::vector<Label
       Registration registration;
       registration.motion = carrier.motion;
       registration.score = carrier.score;
-      report.events.push_back(eventOf(NodeEventKind::reidentified, carrier.node, describe(registration)));
+      note(report, NodeEventKind::reidentified, carrier.node, describe(registration));
     }
     evidence = gatherEvidence(z);  // what it says of them where they are now
     moved = findMoved(z, sight, clusters, evidence);
@@ -50,7 +51,7 @@ void HierarchyMapper::followMovedObjects(const Measurement& z, std::vector<Label
                                          hierarchy_, hierarchy_.view(object.node), &object.node));
     clusters[object.segment]->moved_node = object.node;
     evidence.support(object.node, profile(hierarchy_.node(object.node).label()).existence.p_present);
-    report.events.push_back(eventOf(NodeEventKind::reidentified, object.node, describe(object.registration)));
+    note(report, NodeEventKind::reidentified, object.node, describe(object.registration));
   }
   report.warnings.insert(report.warnings.end(), moved.ambiguous.begin(), moved.ambiguous.end());
 }
@@ -93,6 +94,15 @@ void HierarchyMapper::moveInWorld(NodeId id, const Eigen::Isometry3d& motion) {
   // III-D: t_i <- t_i o t, with t in the node's frame.
   const Eigen::Isometry3d world_T_node = toIsometry(hierarchy_.world_T_node(id));
   hierarchy_.move(id, poseFromMatrix((world_T_node.inverse() * motion * world_T_node).matrix()));
+  assumeWhole(id);
+}
+
+void HierarchyMapper::assumeWhole(NodeId id) {
+  constexpr std::uint16_t kScans = 3;  // that what has moved as one counts for
+  if (!config_.seam_votes) return;
+  if (hierarchy_.node(id).label() != labels::table)
+    seams_.assume(SeamVotes::cellsOf(worldSurface(hierarchy_, id)), kScans);
+  for (const NodeId child : hierarchy_.node(id).children()) assumeWhole(child);
 }
 
 void HierarchyMapper::matchLate(const Measurement& z, NodeEvidence& evidence, UpdateReport& report) {
@@ -106,7 +116,7 @@ void HierarchyMapper::matchLate(const Measurement& z, NodeEvidence& evidence, Up
     moveInWorld(id, match->registration.motion);
     hierarchy_.reparent(id, hierarchy_.node(match->again).parent().value_or(kRootId));
     evidence.support(id, profile(hierarchy_.node(id).label()).existence.p_present);
-    report.events.push_back(eventOf(NodeEventKind::reidentified, id, describe(match->registration)));
+    note(report, NodeEventKind::reidentified, id, describe(match->registration));
     mergeInto(id, match->again, z.scan, report);
   }
 }
@@ -114,29 +124,32 @@ void HierarchyMapper::matchLate(const Measurement& z, NodeEvidence& evidence, Up
 void HierarchyMapper::mergePieces(const Measurement& z, const std::vector<LabelledPart>& parts,
                                   const NodeEvidence& evidence, UpdateReport& report) {
   std::vector<TakenSegment> taken;
-  for (const LabelledPart& part : parts) taken.push_back({part.node, &part.world_points});
+  for (const LabelledPart& part : parts) taken.push_back({part.node, &part.world_points, part.joined_with});
   for (const auto& [piece, e] : evidence.by_node) {
     const auto whole = voteOnPiece(hierarchy_, piece, e, taken);
-    if (!whole) continue;
+    if (!whole || meet(*whole, piece)) continue;
     mergeInto(*whole, piece, z.scan, report);
   }
 }
 
+bool HierarchyMapper::meet(NodeId a, NodeId b) const {
+  if (!config_.seam_votes) return false;
+  const auto cells = [this](NodeId id) { return SeamVotes::cellsOf(worldSurface(hierarchy_, id)); };
+  return seams_.between(cells(a), cells(b)).pairs > 0.0;
+}
+
 void HierarchyMapper::mergeInto(NodeId whole, NodeId piece, std::uint64_t scan, UpdateReport& report) {
   MapNode& merged = hierarchy_.node(whole);
+  // Two views of a thing, or a piece that is confirmed: so is the whole.
+  if (merged.confirmation.waits && !hierarchy_.node(piece).confirmation.waits) enterMap(whole, report);
   const Pose world_T_piece = hierarchy_.world_T_node(piece);
   merged.map().absorb(hierarchy_.node(piece).map(),
                       toIsometry(-hierarchy_.world_T_node(whole) + world_T_piece));
   merged.version = scan;
   merged.first_scan = std::min(merged.first_scan, hierarchy_.node(piece).first_scan);
   merged.last_scan = std::max(merged.last_scan, hierarchy_.node(piece).last_scan);
-  report.events.push_back(eventOf(NodeEventKind::merged, piece, "into node " + std::to_string(whole.value)));
-  removed_.push_back({hierarchy_.remove(piece), world_T_piece, scan});
-}
-
-NodeEvent HierarchyMapper::eventOf(NodeEventKind kind, NodeId id, std::string detail) const {
-  const MapNode& node = hierarchy_.node(id);
-  return {kind, id, node.label(), node.existence(), std::move(detail)};
+  note(report, NodeEventKind::merged, piece, "into node " + std::to_string(whole.value));
+  takeOut(piece, scan);
 }
 
 void HierarchyMapper::applyExistence(const Measurement& z, const NodeEvidence& evidence,
@@ -150,16 +163,14 @@ void HierarchyMapper::applyExistence(const Measurement& z, const NodeEvidence& e
       const ExistenceFilter filter(profile(node.label()).existence);
       node.existence_log_odds = filter.update(node.existence_log_odds, e.p_measurement);
     }
-    report.existence.push_back({node.id(), e, node.existence()});
+    if (!node.confirmation.waits) report.existence.push_back({node.id(), e, node.existence()});
   }
   for (const auto& [id, e] : evidence.by_node) {
     if (!hierarchy_.contains(id) || !ExistenceFilter::isGone(hierarchy_.node(id).existence_log_odds))
       continue;
-    const Pose world_T_node = hierarchy_.world_T_node(id);
-    removed_.push_back({hierarchy_.remove(id), world_T_node, z.scan});
-    const MapNode& node = removed_.back().node;
-    report.events.push_back(
-        {NodeEventKind::removed, id, node.label(), node.existence(), "existence below 0.5"});
+    note(report, NodeEventKind::removed, id, "existence below 0.5");
+    if (config_.seam_votes) seams_.forget(SeamVotes::cellsOf(worldSurface(hierarchy_, id)));
+    takeOut(id, z.scan);
   }
 }
 
@@ -173,9 +184,8 @@ UpdateReport HierarchyMapper::integrate(const ObjectMotion& motion, std::uint64_
     return report;
   }
   hierarchy_.move(motion.node, motion.motion);  // t_i <- t_i o t
-  const MapNode& node = hierarchy_.node(motion.node);
-  report.events.push_back(
-      {NodeEventKind::moved, node.id(), node.label(), node.existence(), motion.motion.asString()});
+  assumeWhole(motion.node);
+  note(report, NodeEventKind::moved, motion.node, motion.motion.asString());
   return report;
 }
 

@@ -50,13 +50,15 @@ std::optional<NodeId> voteOnPiece(MapHierarchy& hierarchy, NodeId piece, const E
                                   std::span<const TakenSegment> taken) {
   if (!hierarchy.contains(piece)) return std::nullopt;
   PieceVotes& votes = hierarchy.node(piece).votes;
-  if (std::any_of(taken.begin(), taken.end(), [piece](const auto& s) { return s.node == piece; })) {
+  const auto own =
+      std::find_if(taken.begin(), taken.end(), [piece](const auto& s) { return s.node == piece; });
+  if (own != taken.end() && !own->joined_with) {
     ++votes.apart;
     return std::nullopt;
   }
   if (2 * evidence.present <= evidence.absent + evidence.occluded) return std::nullopt;  // not seen
-  const auto whole = holderOfBox(hierarchy, piece, taken);
-  if (!whole) return std::nullopt;
+  const auto whole = own != taken.end() ? own->joined_with : holderOfBox(hierarchy, piece, taken);
+  if (!whole || !hierarchy.contains(*whole)) return std::nullopt;
   if (votes.with != *whole) votes.joined = 0;
   votes.with = *whole;
   ++votes.joined;

@@ -13,6 +13,8 @@ namespace hoctomap {
 struct TakenSegment {
   NodeId node;
   const PointCloud* world_points = nullptr;
+  std::optional<NodeId>
+      joined_with{};  ///< the node that took most of the segment, of which this is a part only
 };
 
 /// Takes one scan's vote on whether `piece` is a node of its own or a piece of another one of its label: an

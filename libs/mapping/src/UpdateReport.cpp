@@ -17,6 +17,8 @@ std::string toString(NodeEventKind kind) {
       return "merged";
     case NodeEventKind::moved:
       return "moved";
+    case NodeEventKind::split:
+      return "split";
     case NodeEventKind::reidentified:
       return "reidentified";
   }

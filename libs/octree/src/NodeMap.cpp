@@ -51,6 +51,29 @@ void NodeMap::absorb(const NodeMap& other, const Eigen::Isometry3d& this_T_other
   }
 }
 
+void NodeMap::give(NodeMap& other, const Eigen::Isometry3d& other_T_this,
+                   const std::function<bool(const Eigen::Vector3f&)>& which) {
+  occupied_valid_ = other.occupied_valid_ = false;
+  tree_->expand();
+  // What stays goes into a new tree: stock `deleteNode` leaves empty inner nodes behind.
+  auto rest = emptyTree(tree_->getResolution());
+  model_.applyTo(*rest);
+  for (auto leaf = tree_->begin_leafs(); leaf != tree_->end_leafs(); ++leaf) {
+    const Eigen::Vector3d p(leaf.getX(), leaf.getY(), leaf.getZ());
+    if (!tree_->isNodeOccupied(*leaf) || !which(p.cast<float>())) {
+      rest->setNodeValue(leaf.getKey(), leaf->getLogOdds(), true);
+      continue;
+    }
+    const Eigen::Vector3d q = other_T_this * p;
+    octomap::OcTreeKey key;
+    if (other.tree_->coordToKeyChecked(q.x(), q.y(), q.z(), key))
+      other.tree_->updateNode(key, leaf->getLogOdds());
+  }
+  rest->updateInnerOccupancy();
+  rest->prune();
+  tree_ = std::move(rest);
+}
+
 const PointCloud& NodeMap::occupiedVoxels() const {
   if (!occupied_valid_) collectOccupied();
   return occupied_voxels_;

@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <map>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -11,6 +12,7 @@
 #include "hoctomap/existence/BeamExistenceModel.h"
 #include "hoctomap/mapping/HierarchyMapper.h"
 #include "hoctomap/mapping/LabelProfile.h"
+#include "hoctomap/tabletop/LabelRules.h"
 #include "hoctomap/tabletop/TabletopConfig.h"
 
 namespace hoctomap {
@@ -45,7 +47,9 @@ struct Settings {
   bool monolithic = false;          ///< S(z) = {z}, one map, beams unbounded
   double association_margin = 0.0;  ///< m, by which boxes are grown in f_A
   bool contest_at_surface = true;   ///< of several segments in a node's box, those at its surface join it
+  bool seam_votes = false;          ///< nodes are split and merged by votes on where objects meet
   bool reidentify = true;           ///< moved objects are found by registration
+  int confirm_scans = 2;            ///< scans that must show an object before its node enters the map
   int checkpoint_scans = 10;        ///< scans between two commits to disk
   PosesConfig poses;
   SensorConfig sensor;
@@ -53,8 +57,11 @@ struct Settings {
   BeamExistenceConfig existence;
   Limits limits;
   LabelProfiles labels;
+  std::map<Label, LabelRule> rules;  ///< of labels other than background, table and object
 
   [[nodiscard]] MappingConfig mappingConfig() const;
+  /// The rules that name segments.
+  [[nodiscard]] std::vector<NamedRule> labelRules() const;
 };
 
 /// Settings from an INI file, or from the built-in `tabletop.ini` if there is none. `overrides` are

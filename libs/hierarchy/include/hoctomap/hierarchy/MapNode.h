@@ -13,13 +13,24 @@
 
 namespace hoctomap {
 
-/// How often scans showed a node apart from a neighbour of its label, and joined to it: whether the two are one
-/// (docs/decisions/0006).
+/// How often scans showed a node apart from a neighbour of its label, and joined to it: whether the two are
+/// one (docs/decisions/0006).
 struct PieceVotes {
   std::uint64_t apart = 0;   ///< scans in which the node took a segment of its own
   std::uint64_t joined = 0;  ///< scans in which it was seen as part of a segment of `with`
   NodeId with;
   bool operator==(const PieceVotes&) const = default;
+};
+
+/// Whether a node is held back until other views confirm it (docs/decisions/0022). A node that waits takes
+/// segments and evidence as any other, but is no part of the map that is written, has no children, and emits
+/// no events.
+struct Confirmation {
+  bool waits = false;
+  bool entered_at_end = false;  ///< of the log, unconfirmed: waits again if the log goes on
+  std::uint64_t shown = 0;      ///< scans that gave it a segment, while it waits
+  std::uint64_t missed = 0;     ///< scans that showed its surface and gave it none
+  bool operator==(const Confirmation&) const = default;
 };
 
 /// A node n_i = (m_i, t_i, p_i, C_i, l_i) of Eq. 2, with its probability of existence (Section III-D).
@@ -40,10 +51,11 @@ class MapNode {
   double existence_log_odds = 0.0;
   [[nodiscard]] double existence() const;
 
-  std::uint64_t first_scan = 0;  ///< scan that created the node
+  std::uint64_t first_scan = 0;  ///< first scan in its map
   std::uint64_t last_scan = 0;   ///< last scan that updated its map
   std::uint64_t version = 0;     ///< last scan that changed the node's map; names its file
   PieceVotes votes;
+  Confirmation confirmation;
 
  private:
   friend class MapHierarchy;

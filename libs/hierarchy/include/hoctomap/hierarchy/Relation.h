@@ -64,7 +64,7 @@ class RelationSet {
   /// Whether some relation can hold between nodes of these labels.
   [[nodiscard]] bool mayHold(const Label& above, const Label& below) const;
 
-  /// A of Eq. 6: all nodes that are related to `below`, ascending.
+  /// A of Eq. 6: all nodes that are related to `below`, ascending; without those that wait for confirmation.
   [[nodiscard]] std::vector<NodeId> candidateAncestors(const MapHierarchy& hierarchy,
                                                        const NodeView& below) const;
 

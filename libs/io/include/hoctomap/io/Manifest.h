@@ -48,7 +48,8 @@ struct NodeRecord {
   std::uint64_t last_scan = 0;
   std::uint64_t version = 0;  ///< names the files
   PieceVotes votes;
-  OccupancyModel occupancy;   ///< sensor model (a `.ot` file forgets it)
+  Confirmation confirmation;
+  OccupancyModel occupancy;  ///< sensor model (a `.ot` file forgets it)
   FileRecord ot;
   FileRecord bt;
   std::optional<std::uint64_t> removed_scan;  ///< only of removed nodes
@@ -59,15 +60,20 @@ struct Manifest {
   int format_version = kMapFormatVersion;
   std::string generator;      ///< program and version
   std::uint64_t scans = 0;    ///< scans of the log taken in, skipped ones included: the index of the next
+  double last_stamp = 0.0;    ///< s since 1970, of the last of them
   std::string config_sha256;  ///< of `config.ini`
   std::string input;  ///< what the caller knows the log by, in order to notice another one; may be empty
   NodeId next_id{1};  ///< id of the next new node
   FileRecord config;
   FileRecord events;
+  /// The part of `events` that a run which goes on with the log keeps, if the end of the log added some.
+  std::optional<FileRecord> events_before_end;
   FileRecord existence;
+  std::optional<FileRecord> seams;  ///< votes on where objects meet (SeamVotes), for a run that goes on
   std::optional<FileRecord> scene;
   std::vector<NodeRecord> nodes;    ///< parents before children, siblings by id
   std::vector<NodeRecord> removed;  ///< by id; their files stay in `nodes/`
+  std::vector<NodeRecord> waiting;  ///< for confirmation, by id: part of the map only for a run that goes on
 
   /// Every file the manifest names.
   [[nodiscard]] std::vector<FileRecord> files() const;

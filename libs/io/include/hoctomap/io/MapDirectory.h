@@ -11,6 +11,7 @@
 
 #include "hoctomap/hierarchy/MapHierarchy.h"
 #include "hoctomap/io/Manifest.h"
+#include "hoctomap/mapping/SeamVotes.h"
 #include "hoctomap/mapping/UpdateReport.h"
 
 namespace hoctomap {
@@ -36,6 +37,8 @@ struct MapState {
   std::uint64_t scans = 0;               ///< scans of the log taken in, skipped ones included
   std::string input{};                   ///< see Manifest::input
   bool keep = false;                     ///< keep this state for good, as `hierarchy-NNNNNN.yaml` (last scan)
+  double last_stamp = 0.0;               ///< of the last scan, s since 1970
+  const SeamVotes* seams = nullptr;      ///< `HierarchyMapper::seams()`
 };
 
 /// One row of `timing.csv`: the scan's wall seconds.
@@ -79,6 +82,8 @@ class MapDirectory {
 
   /// Rows of `events.csv` and `existence.csv`.
   void append(const UpdateReport& report);
+  /// Rows of `events.csv` that stem from the end of the log: a run that goes on with a longer one drops them.
+  void appendEnd(const UpdateReport& report);
   void append(const TimingRow& row);
 
   /// Makes `state` the map of the directory.

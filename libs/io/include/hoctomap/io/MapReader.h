@@ -9,6 +9,7 @@
 
 #include "hoctomap/hierarchy/MapHierarchy.h"
 #include "hoctomap/io/Manifest.h"
+#include "hoctomap/mapping/SeamVotes.h"
 #include "hoctomap/mapping/UpdateReport.h"
 
 namespace hoctomap {
@@ -16,6 +17,7 @@ namespace hoctomap {
 struct MapReadOptions {
   std::optional<std::uint64_t> at_scan;  ///< the kept snapshot of this scan; default: the map itself
   bool removed = false;                  ///< whether to load the octrees of removed nodes, too
+  bool to_go_on = false;                 ///< as the mapper had it before the end of the log
 };
 
 /// A map of a directory. Writing it again gives the same bytes.
@@ -23,6 +25,7 @@ struct StoredMap {
   Manifest manifest;
   MapHierarchy hierarchy;
   std::vector<RemovedNode> removed;  ///< empty unless asked for
+  SeamVotes seams;                   ///< empty unless the map is read to go on
 };
 
 /// Loads a map: manifest and octrees. Every octree file is checked against its size and hash and validated

@@ -3,6 +3,7 @@
 
 #include <map>
 #include <memory>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -14,6 +15,7 @@
 #include "hoctomap/mapping/MeasurementSource.h"
 #include "hoctomap/mapping/PreparedScan.h"
 #include "hoctomap/mapping/Reidentification.h"
+#include "hoctomap/mapping/SeamVotes.h"
 #include "hoctomap/mapping/Segmentation.h"
 #include "hoctomap/mapping/UpdateReport.h"
 
@@ -34,10 +36,15 @@ struct MappingConfig {
   bool bounded = true;      ///< clip beams to the node's box (IV-B); false only for the monolithic map
   bool contest_at_surface = false;  ///< of several segments in a node's box, those at its surface join it
   ReidentificationConfig reidentification;
+  /// Scans that must show a cluster before its node enters the map; until then it is held back.
+  std::uint64_t confirm_scans = 1;
+  /// What a node is goes by surfaces and by the votes of all scans on where objects meet (SeamVotes).
+  bool seam_votes = false;
 };
 
 struct MovedObjects;
 class ScanSight;
+class SharedSurfaces;
 
 /// Builds a hierarchy from measurements: the map update of Section III-C.
 class HierarchyMapper {
@@ -47,7 +54,7 @@ class HierarchyMapper {
 
   /// Continues an existing hierarchy.
   HierarchyMapper(MappingConfig config, LabelProfiles profiles, MappingStrategies strategies,
-                  MapHierarchy hierarchy);
+                  MapHierarchy hierarchy, SeamVotes seams = {});
 
   /// Integrates one measurement.
   UpdateReport integrate(const Measurement& z) { return integrate(z, prepare(z)); }
@@ -62,7 +69,14 @@ class HierarchyMapper {
   /// not exist (any more) changes nothing and is a warning of the report.
   UpdateReport integrate(const ObjectMotion& motion, std::uint64_t scan);
 
+  /// The log has ended with scan `scan`: nodes that still wait for confirmation enter the map if enough
+  /// speaks for them. Nothing may be integrated afterwards.
+  UpdateReport finish(std::uint64_t scan, double stamp);
+
+  /// Nodes that wait for confirmation are in it (`MapNode::confirmation`).
   [[nodiscard]] const MapHierarchy& hierarchy() const { return hierarchy_; }
+  /// What the scans say of where objects meet; belongs to the state of a map that is gone on with.
+  [[nodiscard]] const SeamVotes& seams() const { return seams_; }
   /// Nodes that were removed since the construction of the mapper, in order, with the world pose they had.
   [[nodiscard]] const std::vector<RemovedNode>& removed() const { return removed_; }
 
@@ -75,7 +89,8 @@ class HierarchyMapper {
                                                     const NodeEvidence& evidence) const;
   std::vector<NodeId> associate(const Measurement& z, const std::vector<LabelledPart*>& parts,
                                 const NodeEvidence& evidence, UpdateReport& report);
-  NodeId createNode(const Measurement& z, const LabelledPart& part, UpdateReport& report);
+  NodeId createNode(const Measurement& z, const LabelledPart& part, UpdateReport& report,
+                    const std::optional<Pose>& frame = std::nullopt);
   void updateMaps(const Measurement& z, const std::vector<LabelledPart*>& parts,
                   const std::vector<NodeId>& nodes, UpdateReport& report);
   void adoptRelated(const std::vector<NodeId>& created);
@@ -86,13 +101,33 @@ class HierarchyMapper {
                     NodeEvidence& evidence) const;
   MovedObjects findMoved(const Measurement& z, const ScanSight& sight,
                          const std::vector<LabelledPart*>& clusters, const NodeEvidence& evidence) const;
+  void assumeWhole(NodeId id);
   void moveInWorld(NodeId id, const Eigen::Isometry3d& motion);
   void matchLate(const Measurement& z, NodeEvidence& evidence, UpdateReport& report);
   void mergePieces(const Measurement& z, const std::vector<LabelledPart>& parts, const NodeEvidence& evidence,
                    UpdateReport& report);
+  [[nodiscard]] bool meet(NodeId a, NodeId b) const;
   void mergeInto(NodeId whole, NodeId piece, std::uint64_t scan, UpdateReport& report);
   void applyExistence(const Measurement& z, const NodeEvidence& evidence, UpdateReport& report);
-  [[nodiscard]] NodeEvent eventOf(NodeEventKind kind, NodeId id, std::string detail) const;
+  // HierarchyMapperIdentity.cpp
+  void settleIdentity(const Measurement& z, std::vector<LabelledPart>& parts, const NodeEvidence& evidence,
+                      UpdateReport& report);
+  [[nodiscard]] bool isOfKind(NodeId id, const Label& label) const;
+  void splitNode(const Measurement& z, NodeId id, std::vector<std::size_t>& segments,
+                 const SharedSurfaces& surfaces, std::vector<LabelledPart>& parts,
+                 const std::vector<std::size_t>& clusters, UpdateReport& report);
+  void splitOff(const Measurement& z, NodeId id, const PointCloud& own, const PointCloud& other,
+                LabelledPart& part, UpdateReport& report);
+  void divideSegments(const Measurement& z, const SharedSurfaces& surfaces, std::vector<LabelledPart>& parts,
+                      const std::vector<std::size_t>& clusters, UpdateReport& report);
+  void dividePart(std::size_t index, const std::vector<NodeId>& holders, const SharedSurfaces& surfaces,
+                  std::vector<LabelledPart>& parts) const;
+  // HierarchyMapperConfirmation.cpp
+  void confirmNodes(const std::vector<LabelledPart>& parts, const NodeEvidence& evidence,
+                    UpdateReport& report);
+  void enterMap(NodeId id, UpdateReport& report);
+  void takeOut(NodeId id, std::uint64_t scan);
+  void note(UpdateReport& report, NodeEventKind kind, NodeId id, std::string detail) const;
   [[nodiscard]] const LabelProfile& profile(const Label& label) const;
 
   MappingConfig config_;
@@ -100,6 +135,8 @@ class HierarchyMapper {
   MappingStrategies strategies_;
   MapHierarchy hierarchy_;
   std::vector<RemovedNode> removed_;
+  SeamVotes seams_;
+  std::set<NodeId> waiting_;  ///< nodes that wait for confirmation
 };
 
 }  // namespace hoctomap

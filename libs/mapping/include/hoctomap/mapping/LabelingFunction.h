@@ -14,6 +14,10 @@ class LabelingFunction {
  public:
   virtual ~LabelingFunction() = default;
   [[nodiscard]] virtual Label label(const Measurement& z, const Segment& segment) const = 0;
+
+  /// Whether segments of these labels may show one object: a part of a cup need not look like one. The node
+  /// that is there first gives the label.
+  [[nodiscard]] virtual bool areOfOneKind(const Label& a, const Label& b) const { return a == b; }
 };
 
 /// A labelling function from a lambda `Label(const Measurement&, const Segment&)`.

@@ -18,8 +18,10 @@ struct LabelledPart {
   PointCloud world_points;
   Label label;
   Obb box;
-  std::optional<NodeId> moved_node;  ///< known to be here now: it takes the segment wherever its box is
-  NodeId node;                       ///< that took it
+  std::optional<NodeId> moved_node;     ///< known to be here now: it takes the segment wherever its box is
+  NodeId node;                          ///< that took it
+  bool is_new = false;                  ///< it shows no known node, whatever boxes say
+  std::optional<NodeId> joined_with{};  ///< of a part of a segment that this node's part is the main one of
 };
 
 /// A scan after the first step of its integration, which does not depend on the map: S(z) and L(z).

@@ -10,7 +10,7 @@
 
 namespace hoctomap {
 
-enum class NodeEventKind { created, updated, removed, moved, merged, reidentified };
+enum class NodeEventKind { created, updated, removed, moved, merged, split, reidentified };
 [[nodiscard]] std::string toString(NodeEventKind kind);
 
 /// One change of one node.

@@ -5,6 +5,7 @@
 
 #include <Eigen/Geometry>
 #include <cstdint>
+#include <functional>
 #include <memory>
 #include <vector>
 
@@ -40,6 +41,11 @@ class NodeMap {
   /// Takes over what another map knows: its occupied voxels are added in log-odds, its free voxels only where
   /// this map knows nothing. Voxels are resampled at their centres.
   void absorb(const NodeMap& other, const Eigen::Isometry3d& this_T_other);
+
+  /// Hands over the occupied voxels of which `which` (centre in this map's frame) is true: they are added to
+  /// the other map in log-odds, and unknown here afterwards.
+  void give(NodeMap& other, const Eigen::Isometry3d& other_T_this,
+            const std::function<bool(const Eigen::Vector3f&)>& which);
 
   /// Centres of the occupied voxels in the node's frame, at the map's resolution, in octree order.
   [[nodiscard]] const PointCloud& occupiedVoxels() const;
