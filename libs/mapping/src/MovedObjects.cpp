@@ -197,8 +197,12 @@ class Finder {
       sum += static_cast<double>((motion * voxels[i] - voxels[i]).norm());
     const double least_shift = std::max(config_.least_shift, hierarchy_.node(node.id).map().resolution());
     if (sum < least_shift * static_cast<double>(asked)) return false;
-    return !segment.node ||
-           (r.score >= config_.least_in_place && r.score >= r.rest_score + config_.least_gain);
+    if (!segment.node) return true;
+    constexpr double kMisfitLeft = 1.0 / 3.0;
+    // Where most beams still end on the node, its views may just differ.
+    return r.score >= r.rest_score + config_.least_gain &&
+           (node.contradicted || r.score >= config_.least_in_place ||
+            1.0 - r.score <= kMisfitLeft * (1.0 - r.rest_score));
   }
 
   static bool isBest(const Fit& fit, const std::vector<Fit>& fits) {
