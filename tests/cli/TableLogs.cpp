@@ -4,7 +4,11 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
 #include <cstdlib>
+#include <numbers>
+#include <random>
+#include <variant>
 
 #include "hoctomap/io/MapReader.h"
 #include "hoctomap/io/PipeLogWriter.h"
@@ -34,7 +38,9 @@ Outcome build(const std::string& log, const std::string& map, const std::vector<
   return outcome;
 }
 
-void reverseLog(const std::string& log, const std::string& reversed) {
+namespace {
+
+std::vector<Measurement> scansOf(const std::string& log) {
   setenv("HOCTOMAP_MRPT", HOCTOMAP_HELPER, 1);
   LogReadOptions options;
   options.logs = {log};
@@ -43,6 +49,33 @@ void reverseLog(const std::string& log, const std::string& reversed) {
   while (auto item = source.next()) {
     if (auto* z = std::get_if<Measurement>(&*item)) scans.push_back(std::move(*z));
   }
+  return scans;
+}
+
+}  // namespace
+
+void addPoseNoise(const std::string& log, const std::string& noisy, double shift, double turn,
+                  std::uint64_t seed) {
+  std::mt19937_64 random(seed);
+  std::normal_distribution<double> normal;
+  constexpr double kDegree = std::numbers::pi / 180.0;
+  const std::vector<Measurement> scans = scansOf(log);
+  PipeLogWriter writer(noisy);
+  for (std::size_t i = 0; i < scans.size(); ++i) {
+    const Measurement& z = scans[i];
+    const std::array<double, 6> e{normal(random), normal(random), normal(random),
+                                  normal(random), normal(random), normal(random)};
+    const Pose error(shift * e[0], shift * e[1], shift * e[2], turn * kDegree * e[3], turn * kDegree * e[4],
+                     turn * kDegree * e[5]);
+    const Pose world_T_sensor = z.world_T_sensor + error;
+    writer.write(TruthPose{z.stamp, "groundtruth", world_T_sensor});
+    writer.write(DepthScan{i, z.stamp, z.sensor, world_T_sensor, *z.image});
+  }
+  writer.finish();
+}
+
+void reverseLog(const std::string& log, const std::string& reversed) {
+  const std::vector<Measurement> scans = scansOf(log);
   PipeLogWriter writer(reversed);
   for (std::size_t i = 0; i < scans.size(); ++i) {
     const Measurement& z = scans[scans.size() - 1 - i];

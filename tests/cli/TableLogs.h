@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <cstdint>
 #include <filesystem>
 #include <string>
 #include <vector>
@@ -23,6 +24,11 @@ Outcome build(const std::string& log, const std::string& map, const std::vector<
 
 /// Writes the depth scans of a log in reverse order, at the times of the original.
 void reverseLog(const std::string& log, const std::string& reversed);
+
+/// Writes the depth scans of a log with errors added to their poses, normally distributed along and about
+/// each axis: metres, degrees.
+void addPoseNoise(const std::string& log, const std::string& noisy, double shift, double turn,
+                  std::uint64_t seed);
 
 /// A node as the tests look at it.
 struct MappedNode {

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <gtest/gtest.h>
 
+#include <set>
+
 #include "TableLogs.h"
 #include "support/SharedData.h"
 
@@ -57,6 +59,48 @@ TEST(RealData, TheKitchenSweepForwardAndInReverse) {
   test::reverseLog(log, folder / "reversed.rawlog");
   test::build(folder / "reversed.rawlog", folder / "backward");
   expectKitchen(folder / "backward");
+}
+
+TEST(RealData, NothingOfTheKitchenIsRemovedByErrorsOfPoses) {
+  const std::string log = dataFile("redkitchen/table_sweep_a.rawlog");
+  if (log.empty()) GTEST_SKIP() << "no shared data";
+  for (const std::uint64_t seed : {4U, 8U}) {
+    const TemporaryFolder folder;
+    test::addPoseNoise(log, folder / "noisy.rawlog", 0.003, 0.15, seed);
+    test::build(folder / "noisy.rawlog", folder / "map");
+    for (const auto& row : test::parseCsv(test::readFile(folder / "map/events.csv"))) {
+      EXPECT_NE(row.at("event"), "removed") << "seed " << seed << " scan " << row.at("scan");
+    }
+  }
+}
+
+/// Object nodes of at least 1000 points that were made in the first scans and are there at the end: smaller
+/// ones are pieces of the bin's rim.
+std::set<std::string> survivors(const std::string& map, int first_scans) {
+  std::set<std::string> alive;
+  for (const auto& row : test::parseCsv(test::readFile(std::filesystem::path(map) / "events.csv"))) {
+    if (row.at("label") != "object") continue;
+    const bool is_early = std::stoi(row.at("scan")) < first_scans;
+    const std::string detail = row.at("detail") + " 0";  // begins with the number of points, or a quote
+    if (row.at("event") == "created" && is_early &&
+        std::stoi(detail.substr(detail.find_first_of("0123456789"))) >= 1000)
+      alive.insert(row.at("node"));
+    if (row.at("event") == "removed" || row.at("event") == "merged") alive.erase(row.at("node"));
+  }
+  return alive;
+}
+
+TEST(RealData, AFullBinThatIsEmptiedLosesItsHeap) {
+  const std::string log = dataFile("arc_tote/filled_then_empty.rawlog");
+  if (log.empty()) GTEST_SKIP() << "no shared data";
+  const TemporaryFolder folder;
+  test::build(log, folder / "map");
+  const auto events = test::parseCsv(test::readFile(folder / "map/events.csv"));
+  const auto removed = std::count_if(events.begin(), events.end(), [](const auto& row) {
+    return row.at("label") == "object" && row.at("event") == "removed";
+  });
+  EXPECT_GE(removed, 5) << "the heap is seen as several things";
+  EXPECT_TRUE(survivors(folder / "map", 3).empty());
 }
 
 TEST(RealData, TheStereoCloudHasOneTableAndAMug) {

@@ -123,6 +123,69 @@ TEST(Registration, ARoundThingKeepsItsTurn) {
   EXPECT_LT(Eigen::AngleAxisd(r.motion.rotation()).angle(), 0.2);
 }
 
+/// Points of the top of a box that stands on z = 0 about the vertical axis, and of the sides that face a
+/// direction.
+Points seenBox(const Eigen::Vector3d& size, const Eigen::Vector2d& from, Rng& rng) {
+  Points points;
+  const auto add = [&](double x, double y, double z) {
+    points.push_back((Eigen::Vector3d(x, y, z) * 0.5).cwiseProduct(size).cast<float>());
+  };
+  for (int i = 0; i < 8000; ++i) {
+    const double u = uniform(rng, -1.0, 1.0);
+    const double v = uniform(rng, -1.0, 1.0);
+    add(u, v, 1.0);
+    add(from.x() < 0.0 ? -1.0 : 1.0, u, v);
+    add(u, from.y() < 0.0 ? -1.0 : 1.0, v);
+  }
+  for (auto& p : points) p.z() += static_cast<float>(0.5 * size.z());
+  return points;
+}
+
+TEST(Registration, ABoxThatShowsNewSidesIsHeldByItsOutline) {
+  for (std::uint64_t seed = 1; seed <= 8; ++seed) {
+    Rng rng(seed);
+    const Eigen::Vector3d size(uniform(rng, 0.07, 0.10), uniform(rng, 0.115, 0.15), uniform(rng, 0.08, 0.15));
+    const auto motion = aboutVertical(uniform(rng, 1.7, 3.0), {0.3, 0.1, 0.0}, Eigen::Vector3d::Zero());
+    const Eigen::Vector3d sensor(1.0, 0.1, 0.8);
+    // The same sensor sees the turned box from its other sides.
+    const Eigen::Vector3d in_box = motion.inverse() * sensor;
+    const Points model = seenBox(size, {1.0, 1.0}, rng);
+    const Points seen = moved(seenBox(size, in_box.head<2>(), rng), motion);
+    RegistrationSight sight;
+    sight.origin = sensor;
+    sight.was_free = [&](const Eigen::Vector3f& p) {
+      return ((p.cast<double>() - Eigen::Vector3d(0, 0, 0.5 * size.z())).cwiseAbs() - 0.5 * size).maxCoeff() >
+             0.0;
+    };
+    const Registration r = registerPoints(model, seen, RegistrationConfig{}, sight);
+    EXPECT_EQ(r.verdict, Match::same)
+        << "seed " << seed << " score " << r.score << " explained " << r.explained;
+    const Eigen::Vector3d centre(0.0, 0.0, 0.05);
+    EXPECT_LT((r.motion * centre - motion * centre).norm(), 0.005) << "seed " << seed;
+    const double off = Eigen::AngleAxisd((r.motion.inverse() * motion).rotation()).angle();
+    EXPECT_LT(std::min(off, std::numbers::pi - off), 2.0 * std::numbers::pi / 180.0) << "seed " << seed;
+  }
+}
+
+TEST(Registration, TurnsThatFitAsWellAreListed) {
+  Rng rng(9);
+  const Eigen::Vector3d square(0.1, 0.1, 0.1);
+  const auto motion = aboutVertical(0.2, {0.3, 0.1, 0.0}, Eigen::Vector3d::Zero());
+  const Points model = seenBox(square, {1.0, 1.0}, rng);
+  const Registration r = registerPoints(model, moved(model, motion), RegistrationConfig{});
+  EXPECT_EQ(r.verdict, Match::same);
+  EXPECT_TRUE(r.other_turns.empty()) << "the corner where both sides meet is seen";
+  Points tops = model;
+  std::erase_if(tops, [](const auto& p) { return p.z() < 0.099F; });
+  const Registration of_tops = registerPoints(tops, moved(tops, motion), RegistrationConfig{});
+  EXPECT_EQ(of_tops.verdict, Match::same);
+  EXPECT_FALSE(of_tops.other_turns.empty());
+  for (const double turn : of_tops.other_turns) {
+    const double quarters = turn / (0.5 * std::numbers::pi);
+    EXPECT_NEAR(quarters, std::round(quarters), 0.05);
+  }
+}
+
 TEST(Registration, TooFewPointsSayNothing) {
   Rng rng(5);
   const Points model = shoe(0.15, 0.06, 0.06, {0, 0, 0.7}, rng, 0.001);

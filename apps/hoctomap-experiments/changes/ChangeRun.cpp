@@ -163,10 +163,27 @@ class Run {
       const Eigen::Vector3d centre(0.0, 0.0, 0.05);
       MotionError error{name, (rest * centre - centre).norm(), Eigen::AngleAxisd(rest.rotation()).angle()};
       error.turn = is_round ? 0.0 : std::min(error.turn, std::abs(std::numbers::pi - error.turn));
+      for (const double turn : otherTurns(event.detail))
+        error.turn = std::min(error.turn, turnLeft(rest, turn));
       if (!best || error.shift < best->shift) best = error;
     }
     constexpr double kAnotherOne = 0.1;  // m: the motion of something else
     if (best && best->shift < kAnotherOne) result_.motions.push_back(*best);
+  }
+
+  /// Turns that are reported to be as likely, rad.
+  static std::vector<double> otherTurns(const std::string& text) {
+    const std::string words = "or turned by ";
+    std::vector<double> turns;
+    for (std::size_t at = text.find(words); at != std::string::npos; at = text.find(words, at + 1))
+      turns.push_back(std::stod(text.substr(at + words.size())) * std::numbers::pi / 180.0);
+    return turns;
+  }
+
+  /// What is left of a motion's error if the thing turned by so much more.
+  static double turnLeft(const Eigen::Isometry3d& rest, double turn) {
+    const Eigen::AngleAxisd more(turn, Eigen::Vector3d::UnitZ());
+    return Eigen::AngleAxisd(rest.rotation() * more.toRotationMatrix()).angle();
   }
 
   static std::optional<Eigen::Isometry3d> poseInBrackets(const std::string& text) {

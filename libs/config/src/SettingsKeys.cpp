@@ -145,9 +145,9 @@ constexpr auto settings_keys = std::to_array<Key<Settings>>({
      &at<&S::tabletop, &T::attach_strays>},
 
     {"existence", "pose_shift", "m", within(0, 1),
-     "Largest sideways error of the pose of a node or scan that is searched out, and the smallest motion of "
-     "an "
-     "object that is believed; 0.006 for a fixed camera, 0.03 for a hand-held one",
+     "Largest sideways error of the pose of a node or scan that is searched out, and the "
+     "smallest motion of an object that is believed; 0.006 for a fixed camera, "
+     "0.03 for a hand-held one",
      &at<&S::existence, &E::pose_shift>},
     {"existence", "pose_depth", "m", within(0, 1), "The same error along the beam",
      &at<&S::existence, &E::pose_depth>},

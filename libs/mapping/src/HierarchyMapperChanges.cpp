@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // III-D: what has changed since the last scan. Moved, merged, replaced and removed nodes.
 #include <algorithm>
+#include <cmath>
+#include <numbers>
 #include <utility>
 
 #include "LateMatches.h"
@@ -15,8 +17,12 @@ namespace hoctomap {
 namespace {
 
 std::string describe(const Registration& registration) {
-  return poseFromMatrix(registration.motion.matrix()).asString() + " score " +
-         std::to_string(registration.score).substr(0, 5);
+  std::string text = poseFromMatrix(registration.motion.matrix()).asString() + " score " +
+                     std::to_string(registration.score).substr(0, 5);
+  for (const double turn : registration.other_turns)
+    text +=
+        ", or turned by " + std::to_string(std::lround(turn * 180.0 / std::numbers::pi)) + " degrees more";
+  return text;
 }
 
 }  // namespace
@@ -69,7 +75,10 @@ void HierarchyMapper::findReplaced(const Measurement& z, const std::vector<Label
                                                                     hierarchy_.node(id).last_scan);
       const auto found = evidence.by_node.find(id);
       if (!is_candidate || found == evidence.by_node.end()) continue;
-      if (!found->second.informative || found->second.contradicts()) continue;
+      const Evidence& e = found->second;
+      if (!e.informative || e.contradicts()) continue;
+      // What nearly all beams end on is there, though other segments may join or divide it.
+      if (e.presentShare() >= config_.reidentification.most_present) continue;
       if (hierarchy_.node(id).label() != part.label) continue;
       if (isReplaced(hierarchy_, id, part.world_points, range, config_.reidentification)) {
         evidence.contradict(id, profile(part.label).existence.p_absent);

@@ -22,16 +22,12 @@ struct DoubtfulNode {
   PointCloud world_voxels;
 };
 
-double presentShare(const Evidence& e) {
-  return static_cast<double>(e.present) / std::max(1.0, static_cast<double>(e.present + e.absent));
-}
-
 std::vector<DoubtfulNode> doubtfulNodes(const MapHierarchy& hierarchy,
                                         std::span<const SegmentInQuestion> segments,
                                         const std::map<NodeId, Evidence>& support, double most_present) {
   std::vector<DoubtfulNode> doubtful;
   for (const auto& [id, evidence] : support) {
-    if (!evidence.informative || presentShare(evidence) >= most_present) continue;
+    if (!evidence.informative || evidence.presentShare() >= most_present) continue;
     const Label& label = hierarchy.node(id).label();
     if (std::none_of(segments.begin(), segments.end(), [&](const auto& s) { return s.label == label; }))
       continue;
@@ -201,7 +197,12 @@ class Finder {
       sum += static_cast<double>((motion * voxels[i] - voxels[i]).norm());
     const double least_shift = std::max(config_.least_shift, hierarchy_.node(node.id).map().resolution());
     if (sum < least_shift * static_cast<double>(asked)) return false;
-    return !segment.node || r.score >= r.rest_score + config_.least_gain;
+    if (!segment.node) return true;
+    constexpr double kMisfitLeft = 1.0 / 3.0;
+    // Where most beams still end on the node, its views may just differ.
+    return r.score >= r.rest_score + config_.least_gain &&
+           (node.contradicted || r.score >= config_.least_in_place ||
+            1.0 - r.score <= kMisfitLeft * (1.0 - r.rest_score));
   }
 
   static bool isBest(const Fit& fit, const std::vector<Fit>& fits) {

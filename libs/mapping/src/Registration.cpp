@@ -59,7 +59,8 @@ class Registrar {
     }
     Registration result = polished(*best);
     for (const Registration& c : candidates) {
-      if (&c != best && isRival(c, *best)) result.other_turns.push_back(yaw(c.motion) - yaw(result.motion));
+      const double other = std::remainder(yaw(c.motion) - yaw(result.motion), 2.0 * std::numbers::pi);
+      if (isRival(c, *best) && std::abs(other) > kOtherTurn) result.other_turns.push_back(other);
     }
     result.rest_score = rest.score;
     return result;

@@ -18,6 +18,10 @@ struct Evidence {
   bool informative = false;    ///< enough beams to say anything; otherwise P(n | z_t) = P(n)
   double p_measurement = 0.5;  ///< P(n | z_t)
 
+  /// Share of the beams that reach the node's place that end on the node; 0 if none do.
+  [[nodiscard]] double presentShare() const {
+    return present == 0 ? 0.0 : static_cast<double>(present) / (static_cast<double>(present) + absent);
+  }
   /// Whether the measurement contradicts the node: it takes no segment of this scan.
   [[nodiscard]] bool contradicts() const { return informative && 2 * present < present + absent; }
 };
