@@ -102,6 +102,8 @@ Confirmation readConfirmation(const YamlSection& section, NodeList list) {
   confirmation.entered_at_end = list == NodeList::tree;
   confirmation.shown = section["held_back"]["shown"].count();
   confirmation.missed = section["held_back"]["missed"].count();
+  confirmation.points = section["held_back"]["points"].count();
+  confirmation.enough = section["held_back"]["enough"].flag();
   return confirmation;
 }
 

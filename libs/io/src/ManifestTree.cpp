@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "ManifestTree.h"
 
+#include <algorithm>
 #include <map>
 #include <set>
 #include <utility>
@@ -121,6 +122,21 @@ void checkIds(const Manifest& manifest, const std::string& name) {
                      ": must hang under a node of the tree, alone");
     }
   }
+}
+
+void endLog(Manifest& manifest) {
+  for (NodeRecord& node : manifest.waiting) {
+    if (!node.confirmation.enough) continue;
+    node.confirmation = node.confirmation.letInAtEnd();
+    const auto parent = std::find_if(manifest.nodes.begin(), manifest.nodes.end(),
+                                     [&](const NodeRecord& other) { return other.id == node.parent; });
+    auto& siblings = parent->children;  // it is there: see checkIds
+    siblings.insert(std::lower_bound(siblings.begin(), siblings.end(), node.id), node.id);
+    manifest.let_in_at_end.push_back(node.id);
+    manifest.nodes.push_back(std::move(node));
+  }
+  manifest.waiting.clear();
+  manifest.nodes = orderedTree(std::move(manifest.nodes), "kept state");
 }
 
 }  // namespace hoctomap

@@ -67,7 +67,9 @@ std::string nodeText(const NodeRecord& node) {
           ", with: " + std::to_string(node.votes.with.value) + "}\n";
   if (node.confirmation.waits || node.confirmation.entered_at_end) {
     text += "    held_back: {shown: " + std::to_string(node.confirmation.shown) +
-            ", missed: " + std::to_string(node.confirmation.missed) + "}\n";
+            ", missed: " + std::to_string(node.confirmation.missed) +
+            ", points: " + std::to_string(node.confirmation.points) +
+            ", enough: " + (node.confirmation.enough ? "true" : "false") + "}\n";
   }
   if (node.removed_scan) text += count("removed_scan", *node.removed_scan);
   text += line("occupancy", occupancyText(node.occupancy));

@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "Disk.h"
+#include "ManifestTree.h"
 #include "MapNames.h"
 #include "SeamsFile.h"
 #include "hoctomap/geometry/Errors.h"
@@ -85,7 +86,7 @@ void holdBack(const std::filesystem::path& directory, const Manifest& manifest, 
   }
   for (const NodeId id : hierarchy.ids()) {
     Confirmation& confirmation = hierarchy.node(id).confirmation;
-    if (confirmation.entered_at_end) confirmation = {true, false, confirmation.shown, confirmation.missed};
+    if (confirmation.entered_at_end) confirmation = confirmation.heldBack();
   }
   hierarchy.setNextId(manifest.next_id);
 }
@@ -133,7 +134,9 @@ Manifest readManifest(const std::filesystem::path& directory, std::optional<std:
     throw MapError(directory.string() + ": no state after scan " + std::to_string(*at_scan) +
                    " or before was kept (build --snapshot-every)");
   }
-  return readManifestFile(directory / snapshotName(*newest));
+  Manifest kept = readManifestFile(directory / snapshotName(*newest));
+  endLog(kept);
+  return kept;
 }
 
 StoredMap readMap(const std::filesystem::path& directory, const MapReadOptions& options) {

@@ -11,6 +11,7 @@
 #include "hoctomap/geometry/Errors.h"
 #include "hoctomap/io/EscapedText.h"
 #include "hoctomap/io/Sha256.h"
+#include "hoctomap/mapping/UpdateReport.h"
 
 namespace hoctomap {
 namespace {
@@ -111,6 +112,12 @@ std::vector<EventRow> readEvents(const std::filesystem::path& directory, const M
   while (table.next()) {
     rows.push_back({table.count("scan"), table.number("time"), table.text("event"), table.node(),
                     Label{table.text("label")}, table.number("existence"), table.text("detail")});
+  }
+  for (const NodeId id : manifest.let_in_at_end) {
+    const NodeRecord& node = *manifest.find(id);
+    rows.push_back({manifest.scans - 1, manifest.last_stamp, toString(NodeEventKind::created), id, node.label,
+                    node.existence,
+                    createdDetail(node.confirmation.points, node.first_scan, node.parent.value_or(kRootId))});
   }
   return rows;
 }

@@ -49,6 +49,11 @@ class YamlSection {
     if (!value) refuse("\"" + escapedText(text(), 60) + "\" is no finite number");
     return *value;
   }
+  [[nodiscard]] bool flag() const {
+    const std::string word = text();
+    if (word != "true" && word != "false") refuse("is neither true nor false");
+    return word == "true";
+  }
   [[nodiscard]] std::uint64_t count() const {
     const auto value = parseCount(text());
     if (!value) refuse("\"" + escapedText(text(), 60) + "\" is no whole number from 0");

@@ -195,9 +195,11 @@ NodeId HierarchyMapper::createNode(const Measurement& z, const LabelledPart& par
   node.existence_log_odds = ExistenceFilter(p.existence).initialLogOdds();
   // What stands on something is held back until other views confirm it.
   node.confirmation.waits = part.structure == Structure::cluster && config_.confirm_scans > 1;
-  if (node.confirmation.waits) waiting_.insert(id);
-  note(report, NodeEventKind::created, id,
-       std::to_string(part.points.size()) + " points, parent " + std::to_string(parent.value));
+  if (node.confirmation.waits) {
+    node.confirmation.points = part.points.size();
+    waiting_.insert(id);
+  }
+  note(report, NodeEventKind::created, id, createdDetail(part.points.size(), z.scan, parent));
   return id;
 }
 

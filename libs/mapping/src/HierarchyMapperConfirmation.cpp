@@ -29,6 +29,10 @@ void HierarchyMapper::confirmNodes(const std::vector<LabelledPart>& parts, const
       confirmation.missed += seen->second.informative ? 1U : 0U;
     }
   }
+  for (const NodeId id : waiting_) {
+    MapNode& node = hierarchy_.node(id);
+    node.confirmation.enough = isWellSupported(node, profile(node.label()).existence);
+  }
 }
 
 UpdateReport HierarchyMapper::finish(std::uint64_t scan, double stamp) {
@@ -38,10 +42,10 @@ UpdateReport HierarchyMapper::finish(std::uint64_t scan, double stamp) {
   const std::set<NodeId> waiting = waiting_;
   for (const NodeId id : waiting) {
     MapNode& node = hierarchy_.node(id);
-    if (!isWellSupported(node, profile(node.label()).existence)) continue;
+    if (!node.confirmation.enough) continue;
     const Confirmation before = node.confirmation;
     enterMap(id, report);
-    node.confirmation = {false, true, before.shown, before.missed};
+    node.confirmation = before.letInAtEnd();
   }
   return report;
 }
@@ -49,10 +53,10 @@ UpdateReport HierarchyMapper::finish(std::uint64_t scan, double stamp) {
 void HierarchyMapper::enterMap(NodeId id, UpdateReport& report) {
   MapNode& node = hierarchy_.node(id);
   waiting_.erase(id);
+  const std::uint64_t points = node.confirmation.points;
   node.confirmation = {};
   note(report, NodeEventKind::created, id,
-       "first seen in scan " + std::to_string(node.first_scan) + ", parent " +
-           std::to_string(node.parent().value_or(kRootId).value));
+       createdDetail(points, node.first_scan, node.parent().value_or(kRootId)));
   adoptRelated({id});
 }
 

@@ -25,4 +25,9 @@ std::string toString(NodeEventKind kind) {
   throw std::invalid_argument("no such node event");
 }
 
+std::string createdDetail(std::uint64_t points, std::uint64_t scan, NodeId parent) {
+  return std::to_string(points) + " points of scan " + std::to_string(scan) + ", parent " +
+         std::to_string(parent.value);
+}
+
 }  // namespace hoctomap

@@ -30,7 +30,24 @@ struct Confirmation {
   bool entered_at_end = false;  ///< of the log, unconfirmed: waits again if the log goes on
   std::uint64_t shown = 0;      ///< scans that gave it a segment, while it waits
   std::uint64_t missed = 0;     ///< scans that showed its surface and gave it none
+  std::uint64_t points = 0;     ///< of the segment that it was made of
+  bool enough = false;          ///< speaks for it to let it in if the log ended now
   bool operator==(const Confirmation&) const = default;
+
+  /// The same after the end of the log has let the node in.
+  [[nodiscard]] Confirmation letInAtEnd() const {
+    Confirmation after = *this;
+    after.waits = false;
+    after.entered_at_end = true;
+    return after;
+  }
+  /// The same when the log goes on after all.
+  [[nodiscard]] Confirmation heldBack() const {
+    Confirmation before = *this;
+    before.waits = true;
+    before.entered_at_end = false;
+    return before;
+  }
 };
 
 /// A node n_i = (m_i, t_i, p_i, C_i, l_i) of Eq. 2, with its probability of existence (Section III-D).

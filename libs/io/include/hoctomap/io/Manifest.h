@@ -74,6 +74,8 @@ struct Manifest {
   std::vector<NodeRecord> nodes;    ///< parents before children, siblings by id
   std::vector<NodeRecord> removed;  ///< by id; their files stay in `nodes/`
   std::vector<NodeRecord> waiting;  ///< for confirmation, by id: part of the map only for a run that goes on
+  /// Not in the file: nodes of a kept state that entered `nodes` when it was read, as at the end of a log.
+  std::vector<NodeId> let_in_at_end;
 
   /// Every file the manifest names.
   [[nodiscard]] std::vector<FileRecord> files() const;
@@ -93,7 +95,7 @@ struct Manifest {
 [[nodiscard]] Manifest parseManifest(const std::string& text, const std::string& name);
 
 /// The manifest of a map directory, without its node files. `at_scan`: the newest kept snapshot (or the map
-/// itself) that has taken in no scan after this one.
+/// itself) that has taken in no scan after this one, as a run that ended there would have left it.
 /// @throws MapError if there is none; FileError if it cannot be read.
 [[nodiscard]] Manifest readManifest(const std::filesystem::path& directory,
                                     std::optional<std::uint64_t> at_scan = std::nullopt);

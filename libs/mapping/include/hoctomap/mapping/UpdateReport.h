@@ -13,6 +13,9 @@ namespace hoctomap {
 enum class NodeEventKind { created, updated, removed, moved, merged, split, reidentified };
 [[nodiscard]] std::string toString(NodeEventKind kind);
 
+/// What `created` says of a node: the points it was made of, the scan they are of, and what it hangs under.
+[[nodiscard]] std::string createdDetail(std::uint64_t points, std::uint64_t scan, NodeId parent);
+
 /// One change of one node.
 struct NodeEvent {
   NodeEventKind kind = NodeEventKind::created;
