@@ -18,8 +18,6 @@ int fail(const std::string& what, int exit_code) {
 }  // namespace
 
 int main(int argc, char** argv) {
-  // Without a handler mimalloc aborts when there is no memory.
-  std::set_new_handler([] { throw std::bad_alloc(); });
   CLI::App app{"The experiments of the paper (Section VI), and how fast hoctomap is beside stock OctoMap."};
   app.name("hoctomap-experiments");
   app.require_subcommand(1);

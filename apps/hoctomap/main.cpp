@@ -32,8 +32,6 @@ std::string escapedLines(const std::string& text) {
 }  // namespace
 
 int main(int argc, char** argv) {
-  // Without a handler mimalloc aborts when there is no memory.
-  std::set_new_handler([] { throw std::bad_alloc(); });
   CLI::App app{
       "hoctomap turns recorded 3D measurements with known sensor poses into a hierarchy of octree maps."};
   app.name("hoctomap");
