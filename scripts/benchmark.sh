@@ -34,7 +34,7 @@ status=0
 "$programs/apps/hoctomap-experiments/hoctomap-experiments" performance -o "$out" "$@" || status=$?
 echo
 echo "== each stage by itself"
-"$programs/tests/benchmarks/hoctomap-benchmarks" --benchmark_out="$out/stages.csv" --benchmark_out_format=csv
+"$programs/tests/benchmarks/hoctomap-benchmarks" --benchmark_out="$out/stages.json" --benchmark_out_format=json
 echo
-echo "written: $out/performance.md, performance.csv, measurements.csv, stages.csv"
+echo "written: $out/performance.md, performance.csv, measurements.csv, stages.json"
 exit "$status"
