@@ -8,7 +8,7 @@ out=${1:-out/demo}
 
 scripts/install_dependencies.sh
 cmake --preset release >/dev/null
-cmake --build --preset release --parallel "$(nproc)"
+cmake --build --preset release --parallel "$(nproc)" --target hoctomap hoctomap-mrpt
 hoctomap=build/release/apps/hoctomap/hoctomap
 
 rm -rf "$out"
@@ -17,5 +17,5 @@ echo "== a log of a simulated scene"
 "$hoctomap" simulate -q -c configs/scenes/demo.ini -o "$out/demo.rawlog"
 echo "== the map of this log"
 "$hoctomap" build -q -i "$out/demo.rawlog" -o "$out/map"
-"$hoctomap" render "$out/map" -o "$out/map.png" --view right
+"$hoctomap" render "$out/map" -o "$out/map.png"
 echo "picture    $out/map.png"
