@@ -38,7 +38,7 @@ HOCTOMAP_INLINE void codesOf(const EndpointField& field, const Floats p[3], Code
 HOCTOMAP_INLINE void mark(const EndpointField& field, std::span<const Eigen::Vector3f> points,
                           VoxelBits& bits) {
   for (std::size_t first = 0; first < points.size(); first += kNarrowLanes) {
-    Floats p[3];
+    Floats p[3]{};
     for (std::size_t lane = 0; lane < kNarrowLanes; ++lane) {
       // The last point fills the lanes: marking a voxel again does no harm.
       const Eigen::Vector3f& point = points[std::min(first + lane, points.size() - 1)];
