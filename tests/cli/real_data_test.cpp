@@ -74,8 +74,9 @@ TEST(RealData, NothingOfTheKitchenIsRemovedByErrorsOfPoses) {
   }
 }
 
-/// Object nodes of at least 1000 points that were made in the first scans and are there at the end: smaller
-/// ones are pieces of the bin's rim.
+/// Object nodes of at least 1000 points that were made in the first scans and are there at the end. Two
+/// smaller ones stay, though they should not (docs/plans.md): one has too few beams for evidence, one grows
+/// into the wall.
 std::set<std::string> survivors(const std::string& map, int first_scans) {
   std::set<std::string> alive;
   for (const auto& row : test::parseCsv(test::readFile(std::filesystem::path(map) / "events.csv"))) {

@@ -8,6 +8,7 @@
 #include <stdexcept>
 
 #include "hoctomap/simulation/Shape.h"
+#include "measuring/FixedSolid.h"
 
 namespace hoctomap {
 
@@ -42,12 +43,14 @@ class ScriptMaker {
     const double focal = 540.0 * width / 640.0;
     s.sensor.camera = {width, width * 3 / 4, focal, focal, 0.5 * (width - 1), 0.5 * (width * 3 / 4 - 1)};
     s.sensor.edge_mixed = 0.02;
-    addFixed("floor", BoxShape{{6.0, 6.0, 0.1}}, Pose(0, 0, -0.1, 0, 0, 0), SolidLabel::background);
-    addFixed("wall", BoxShape{{0.1, 6.0, 2.5}}, Pose(-1.6, 0, 0, 0, 0, 0), SolidLabel::background);
+    addFixedSolid(script_.simulation.scene, "floor", BoxShape{{6.0, 6.0, 0.1}}, Pose(0, 0, -0.1, 0, 0, 0),
+                  SolidLabel::background);
+    addFixedSolid(script_.simulation.scene, "wall", BoxShape{{0.1, 6.0, 2.5}}, Pose(-1.6, 0, 0, 0, 0, 0),
+                  SolidLabel::background);
     TableShape table;
     table.size = kTableSize;
     table.height = kTableHeight;
-    table_ = addFixed("table", table, Pose(), SolidLabel::table);
+    table_ = addFixedSolid(script_.simulation.scene, "table", table, Pose(), SolidLabel::table);
   }
 
   ChangeScript make(ScriptKind kind) && {
@@ -90,16 +93,6 @@ class ScriptMaker {
  private:
   double uniform(double low, double high) {
     return std::uniform_real_distribution<double>(low, high)(random_);
-  }
-
-  SolidId addFixed(const std::string& name, const Shape& shape, const Pose& pose, SolidLabel label) {
-    Solid solid;
-    solid.name = name;
-    solid.label = label;
-    solid.surface = std::make_shared<const TriangleMesh>(tessellate(shape));
-    solid.support_T_solid = pose;
-    if (label == SolidLabel::table) solid.top = kTableHeight;
-    return script_.simulation.scene.add(std::move(solid));
   }
 
   Thing randomThing() {

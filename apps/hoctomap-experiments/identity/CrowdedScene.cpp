@@ -9,6 +9,7 @@
 
 #include "hoctomap/simulation/Shape.h"
 #include "hoctomap/simulation/ViewPath.h"
+#include "measuring/FixedSolid.h"
 
 namespace hoctomap {
 
@@ -35,11 +36,12 @@ class SceneMaker {
     Simulation& s = scene_.simulation;
     s.seed = seed;
     s.sensor.edge_mixed = 0.02;
-    addFixed("floor", BoxShape{{6.0, 6.0, 0.1}}, Pose(0, 0, -0.1, 0, 0, 0), SolidLabel::background);
+    addFixedSolid(scene_.simulation.scene, "floor", BoxShape{{6.0, 6.0, 0.1}}, Pose(0, 0, -0.1, 0, 0, 0),
+                  SolidLabel::background);
     TableShape table;
     table.size = kTableSize;
     table.height = kTableHeight;
-    table_ = addFixed("table", table, Pose(), SolidLabel::table);
+    table_ = addFixedSolid(scene_.simulation.scene, "table", table, Pose(), SolidLabel::table);
     ArcPath path;
     path.radius = 0.85;
     path.height = kTableHeight + 0.6;
@@ -66,16 +68,6 @@ class SceneMaker {
     return std::uniform_real_distribution<double>(low, high)(random_);
   }
   bool chance(double p) { return uniform(0.0, 1.0) < p; }
-
-  SolidId addFixed(const std::string& name, const Shape& shape, const Pose& pose, SolidLabel label) {
-    Solid solid;
-    solid.name = name;
-    solid.label = label;
-    solid.surface = std::make_shared<const TriangleMesh>(tessellate(shape));
-    solid.support_T_solid = pose;
-    if (label == SolidLabel::table) solid.top = kTableHeight;
-    return scene_.simulation.scene.add(std::move(solid));
-  }
 
   Thing box(double most) {
     const Eigen::Vector3d size(uniform(0.05, most), uniform(0.06, 0.16), uniform(0.05, 0.18));

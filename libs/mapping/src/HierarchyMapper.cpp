@@ -65,7 +65,8 @@ UpdateReport HierarchyMapper::integrate(const Measurement& z, PreparedScan prepa
     evidence = gatherEvidence(z);
   }
 
-  // What has moved is put where the scan shows it, so that its segments fall into its box (III-D).
+  // What has moved is put where the scan shows it, so that its segments fall into its box (III-D). Nodes that
+  // prove to be two objects, or one, are split or merged before segments are associated to them.
   {
     const StageTimer timer(report.seconds.associate);
     followMovedObjects(z, parts, evidence, report);
@@ -99,6 +100,7 @@ UpdateReport HierarchyMapper::integrate(const Measurement& z, PreparedScan prepa
   // Eq. 8: nodes whose probability of existence falls below 0.5 are removed.
   const StageTimer timer(report.seconds.existence);
   applyExistence(z, evidence, report);
+  // Those that a second view has shown are reported from now on.
   confirmNodes(parts, evidence, report);
   return report;
 }
