@@ -1,9 +1,9 @@
 # SPDX-License-Identifier: BSD-3-Clause
 set(HOCTOMAP_ENGINE_SOURCES
   src/BeamDensity.cpp src/BlockScanUpdate.cpp src/BlockView.cpp src/BulkUpdate.cpp src/DenseScan.cpp src/EndpointMarker.cpp
-  src/MarkedReach.cpp src/RayBatch.cpp src/RayClip.cpp src/RayMarker.cpp src/RayTraversal.cpp src/ScanBeams.cpp
-  src/ScanMarks.cpp src/UpdateMemory.cpp src/VoxelBits.cpp src/WideRayMarker.cpp)
+  src/FixedRayMarker.cpp src/MarkedReach.cpp src/RayBatch.cpp src/RayClip.cpp src/RayMarker.cpp src/RayTraversal.cpp src/ScanBeams.cpp
+  src/ScanMarks.cpp src/UpdateMemory.cpp src/VoxelBits.cpp src/WideRayBatch.cpp src/WideRayMarker.cpp)
 # Vectors are only handed between inlined functions: how their passing depends on the instruction set is no matter.
 set_source_files_properties(src/BeamDensity.cpp src/DenseScan.cpp src/EndpointMarker.cpp src/UpdateMemory.cpp src/BlockScanUpdate.cpp src/BulkUpdate.cpp src/RayBatch.cpp src/RayMarker.cpp src/ScanBeams.cpp src/ScanMarks.cpp PROPERTIES COMPILE_OPTIONS -Wno-psabi)
 # GCC 12 reports the undefined vectors of its own header.
-set_source_files_properties(src/WideRayMarker.cpp PROPERTIES COMPILE_OPTIONS "-Wno-psabi;-Wno-uninitialized;-Wno-maybe-uninitialized")
+set_source_files_properties(src/FixedRayMarker.cpp src/WideRayBatch.cpp src/WideRayMarker.cpp PROPERTIES COMPILE_OPTIONS "-Wno-psabi;-Wno-uninitialized;-Wno-maybe-uninitialized")

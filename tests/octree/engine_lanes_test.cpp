@@ -80,6 +80,8 @@ void expectSameStart(const RayBatch& batch, std::size_t lane, const RayFan& fan,
   ASSERT_EQ(batch.margin[lane] < 0.0, from_origin);
 }
 
+constexpr std::size_t kRays = 8;  // two groups of narrow lanes, one of wide ones
+
 /// Returns the number of rays that met the box.
 int compareWithExactPath(std::uint64_t seed, bool bounded, InstructionSet set) {
   Scene scene(seed);
@@ -95,20 +97,20 @@ int compareWithExactPath(std::uint64_t seed, bool bounded, InstructionSet set) {
   const BlockFrame frame(box);
   const RayFan fan(grid, origin, box, frame, bounded);
   const RayCaster caster(grid, origin);
-  const PrepareRays prepare = choosePreparation(set);
+  const Preparation preparation = choosePreparation(set);
   int met = 0;
   const auto ends = std::make_unique<RayEnds>();
   const auto batch = std::make_unique<RayBatch>();
   for (int trial = 0; trial < 500; ++trial) {
-    ends->count = static_cast<std::size_t>(scene.pick(1, 4));
-    std::array<Vector3f, kNarrowLanes> points;
+    ends->count = static_cast<std::size_t>(scene.pick(1, kRays));
+    std::array<Vector3f, kRays> points;
     for (auto& end : points) end = scene.point(1.5 * reach, resolution);
     if (trial % 7 == 0) points[0][trial % 3] = origin[trial % 3];
     if (trial % 50 == 0) points[0] = origin;
     if (trial % 90 == 0) points[0][0] = 1e9F;
     setEnds(*ends, points);
-    prepare(fan, *ends, 0, *batch);
-    for (std::size_t lane = 0; lane < kNarrowLanes; ++lane) {
+    for (std::size_t at = 0; at < kRays; at += preparation.lanes) preparation.prepare(fan, *ends, at, *batch);
+    for (std::size_t lane = 0; lane < kRays; ++lane) {
       Key key;
       const Vector3f& end = points[lane];
       const bool is_ray = lane < ends->count && grid.checkedKey(end, key) && key != caster.originKey();

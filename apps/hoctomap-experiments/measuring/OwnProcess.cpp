@@ -22,6 +22,11 @@ std::filesystem::path thisProgram() {
   return std::filesystem::read_symlink("/proc/self/exe");
 }
 
+/// The same program with the allocator of the C library, beside it.
+std::filesystem::path withPlainAllocator(std::filesystem::path program) {
+  return program.replace_filename("hoctomap-experiments-libc");
+}
+
 std::vector<std::string> arguments(const Task& task) {
   std::vector<std::string> result{"measure", task.name, "--log", task.scans.log.string()};
   const auto add = [&result](const std::string& option, const std::string& value) {
@@ -58,7 +63,8 @@ double seconds(const timeval& time) {
 }  // namespace
 
 std::optional<Figures> measureApart(const Task& task) {
-  ChildProcess child({.program = thisProgram(),
+  const auto program = thisProgram();
+  ChildProcess child({.program = task.plain_allocator ? withPlainAllocator(program) : program,
                       .arguments = arguments(task),
                       .output = ChildProcess::Stream::pipe,
                       .own_group = false});

@@ -24,6 +24,7 @@ struct Task {
   std::size_t far_nodes = 0;  ///< for `mapping`: nodes that the map has already, out of view
   std::size_t warm_up = 0;    ///< for `mapping`: first scans that are mapped but not measured
   ProcessLimits limits;
+  bool plain_allocator = false;  ///< the C library's instead of hoctomap's
 };
 
 /// `whole`: whole scans into one unbounded map. Variants `stock` and `ours`.

@@ -38,12 +38,14 @@ HOCTOMAP_INLINE void codesOf(const EndpointField& field, const Floats p[3], Code
 HOCTOMAP_INLINE void mark(const EndpointField& field, std::span<const Eigen::Vector3f> points,
                           VoxelBits& bits) {
   for (std::size_t first = 0; first < points.size(); first += kNarrowLanes) {
-    Floats p[3]{};
+    float coordinates[3][kNarrowLanes];
     for (std::size_t lane = 0; lane < kNarrowLanes; ++lane) {
       // The last point fills the lanes: marking a voxel again does no harm.
       const Eigen::Vector3f& point = points[std::min(first + lane, points.size() - 1)];
-      for (std::size_t i = 0; i < 3; ++i) p[i][lane] = point[static_cast<Eigen::Index>(i)];
+      for (std::size_t i = 0; i < 3; ++i) coordinates[i][lane] = point[static_cast<Eigen::Index>(i)];
     }
+    Floats p[3];
+    for (std::size_t i = 0; i < 3; ++i) load(p[i], coordinates[i]);
     Codes codes;
     codesOf(field, p, codes);
     for (std::size_t lane = 0; lane < kNarrowLanes; ++lane) {

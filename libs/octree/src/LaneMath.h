@@ -14,7 +14,7 @@ namespace hoctomap::engine {
 
 template <class V, class T>
 HOCTOMAP_INLINE void load(V& v, const T* from) {
-  std::memcpy(&v, from, sizeof v);
+  std::memcpy(static_cast<void*>(&v), from, sizeof v);
 }
 template <class V, class T>
 HOCTOMAP_INLINE void store(const V& v, T* to) {
@@ -26,11 +26,29 @@ HOCTOMAP_INLINE V either(const M& mask, const V& a, const V& b) {
 }
 template <class V>
 HOCTOMAP_INLINE V lesser(const V& a, const V& b) {
-  return a < b ? a : b;
+  return either(a < b, a, b);
 }
 template <class V>
 HOCTOMAP_INLINE V greater(const V& a, const V& b) {
-  return a > b ? a : b;
+  return either(a > b, a, b);
+}
+template <class V, class F>
+HOCTOMAP_INLINE V toDoubles(const F& a) {
+  return __builtin_convertvector(a, V);
+}
+template <class F, class V>
+HOCTOMAP_INLINE F toFloats(const V& a) {
+  return __builtin_convertvector(a, F);
+}
+/// Sets the first so many lanes of a mask, which is empty.
+template <class M>
+HOCTOMAP_INLINE void setFirst(M& mask, std::size_t count) {
+  for (std::size_t lane = 0; lane < sizeof(M) / sizeof(Code); ++lane) mask[lane] = lane < count ? -1 : 0;
+}
+/// All bits where the mask is set.
+template <class M>
+HOCTOMAP_INLINE M codesOf(const M& mask) {
+  return mask;
 }
 template <class V>
 HOCTOMAP_INLINE V magnitude(const V& a) {
@@ -51,7 +69,7 @@ inline constexpr double kWholeShift = 6755399441055744.0;  // 1.5 * 2^52
 template <class V>
 HOCTOMAP_INLINE V floorOf(const V& x) {
   const V nearest = (x + kWholeShift) - kWholeShift;
-  return nearest > x ? nearest - 1.0 : nearest;
+  return either(nearest > x, nearest - 1.0, nearest);
 }
 /// Whole numbers below 2^51 in magnitude as integers.
 template <class V>

@@ -13,8 +13,9 @@ namespace hoctomap::engine {
 template <std::size_t lanes>
 struct Lanes {
   using Doubles __attribute__((vector_size(lanes * sizeof(double)))) = double;
-  using Codes __attribute__((vector_size(lanes * sizeof(Code)))) = Code;  ///< also the type of comparisons
+  using Codes __attribute__((vector_size(lanes * sizeof(Code)))) = Code;
   using Floats __attribute__((vector_size(lanes * sizeof(float)))) = float;
+  using Mask __attribute__((vector_size(lanes * sizeof(Code)))) = Code;  ///< all bits, or none
 };
 
 /// The sets of instructions that the engine is compiled for. They differ in speed only.

@@ -64,9 +64,12 @@ struct RayBatch {
   Code cells[kBatch];
 };
 
-/// Prepares the rays [at, at + kNarrowLanes) of a batch; those beyond `ends.count` have no cells. (More lanes
-/// are no gain: GCC 12 takes masks of AVX-512 apart.)
-using PrepareRays = void (*)(const RayFan&, const RayEnds& ends, std::size_t at, RayBatch&);
-[[nodiscard]] PrepareRays choosePreparation(InstructionSet set);
+/// Prepares a few rays of a batch at a time.
+struct Preparation {
+  /// Prepares the rays from `at` on, as many as there are lanes; those beyond `ends.count` have no cells.
+  void (*prepare)(const RayFan& fan, const RayEnds& ends, std::size_t at, RayBatch&);
+  std::size_t lanes;
+};
+[[nodiscard]] Preparation choosePreparation(InstructionSet set);
 
 }  // namespace hoctomap::engine

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <utility>
 
+#include "FixedRayMarker.h"
 #include "LaneMath.h"
 #include "WideRayMarker.h"
 
@@ -127,11 +128,12 @@ HOCTOMAP_TARGET_AVX2 bool markAvx2(const RayBatch& batch, const std::uint16_t* r
 RayMarker::RayMarker(const RayFan& fan, VoxelBits& bits, InstructionSet set)
     : fan_(fan),
       bits_(bits),
-      prepare_(choosePreparation(set)),
-      lanes_(set == InstructionSet::avx512 ? kWideLanes : kNarrowLanes),
+      preparation_(choosePreparation(set)),
       mark_(set == InstructionSet::avx512 ? &markWide
             : set == InstructionSet::avx2 ? &markAvx2
-                                          : &markBaseline) {}
+                                          : &markBaseline),
+      lanes_(set == InstructionSet::avx512 ? kWideLanes : kNarrowLanes),
+      fixed_(set == InstructionSet::avx512 && fan.mirror_places >> kFixedCodeBits == 0) {}
 
 void RayMarker::add(const Eigen::Vector3f& end, std::size_t skip_axis, int skip_steps) {
   const std::size_t at = ends_.count++;
@@ -147,20 +149,26 @@ void RayMarker::finish() {
 }
 
 void RayMarker::markBatch() {
-  for (std::size_t at = 0; at < ends_.count; at += kNarrowLanes) {
-    prepare_(fan_, ends_, at, batch_);
+  for (std::size_t at = 0; at < ends_.count; at += preparation_.lanes) {
+    preparation_.prepare(fan_, ends_, at, batch_);
   }
   Order order;
   std::size_t count = orderByLength(order);
   // The last rays fill the lanes: marking a cell again does no harm.
-  for (; count % lanes_ != 0; ++count) order[count] = order[count - 1];
-  for (std::size_t first = 0; first < count; first += lanes_) {
-    const std::uint16_t* rays = &order[first];
-    if (mark_(batch_, rays, bits_.words(), bits_.pages())) continue;
-    for (std::size_t lane = 0; lane < lanes_; ++lane) addSpecial(rays[lane]);
+  const std::size_t group = fixed_ ? kFixedLanes : lanes_;
+  for (; count % group != 0; ++count) order[count] = order[count - 1];
+  for (std::size_t first = 0; first < count; first += group) {
+    if (fixed_ && markFixed(batch_, &order[first], bits_.words(), bits_.pages())) continue;
+    for (std::size_t at = first; at < first + group; at += lanes_) markGroup(&order[at]);
   }
   ends_.count = 0;
   ends_.skips = false;
+}
+
+/// `lanes_` rays.
+void RayMarker::markGroup(const std::uint16_t* rays) {
+  if (mark_(batch_, rays, bits_.words(), bits_.pages())) return;
+  for (std::size_t lane = 0; lane < lanes_; ++lane) addSpecial(rays[lane]);
 }
 
 /// Rays with cells to be marked, the shortest first. @return their number.

@@ -28,16 +28,18 @@ class RayMarker {
   using Order = std::array<std::uint16_t, kBatch>;  ///< rays of a batch
 
   void markBatch();
+  void markGroup(const std::uint16_t* rays);
   std::size_t orderByLength(Order& order);
   void addSpecial(std::size_t ray);
 
   const RayFan& fan_;
   VoxelBits& bits_;
-  PrepareRays prepare_;
-  std::size_t lanes_;
+  Preparation preparation_;
   /// Marks the cells of so many rays. False if two of the times are too close to tell
   /// their order without exact times: then some cells are not marked.
   bool (*mark_)(const RayBatch&, const std::uint16_t* rays, BlockBits* words, std::uint8_t* pages);
+  std::size_t lanes_;
+  bool fixed_;  ///< whether `markFixed` comes first
   RayEnds ends_;
   RayBatch batch_;
   std::vector<Eigen::Vector3f> special_;
