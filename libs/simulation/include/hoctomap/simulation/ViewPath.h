@@ -4,17 +4,11 @@
 #include <Eigen/Core>
 #include <vector>
 
-#include "hoctomap/geometry/Pose.h"
+#include "hoctomap/exploration/Viewpoint.h"
 
 namespace hoctomap {
 
-/// Where a measurement is taken from: a robot whose base stands on the floor, and the camera on it.
-struct View {
-  Pose world_T_base;   ///< on the floor, z up, x where the robot heads
-  Pose base_T_sensor;  ///< the camera's mount: x forward, y left, z up
-
-  [[nodiscard]] Pose world_T_sensor() const { return world_T_base + base_T_sensor; }
-};
+using View = Viewpoint;
 
 /// The view of a camera at any pose; the base stands below it (z = 0) and heads where the camera does.
 [[nodiscard]] View viewOfSensor(const Pose& world_T_sensor);
