@@ -4,7 +4,6 @@
 #include <memory>
 
 #include "hoctomap/exploration/TableArea.h"
-#include "hoctomap/geometry/Measurement.h"
 
 namespace hoctomap {
 
@@ -16,7 +15,7 @@ class ClearedSpace {
   /// @param resolution m.
   ClearedSpace(const Eigen::AlignedBox3d& world_space, double resolution);
 
-  void add(const Measurement& z);
+  void add(const Eigen::Vector3f& world_origin, std::span<const Eigen::Vector3f> world_points);
 
   [[nodiscard]] const Eigen::AlignedBox3d& space() const { return space_; }
   /// In the world frame.

@@ -40,8 +40,7 @@ class ExpectedInformationGain {
   ExpectedInformationGain(const GainConfig& config, const RobotModel& robot);
 
   /// @return bits (`entropy`) or cells (`swept_cells`).
-  [[nodiscard]] double operator()(const KnowledgeGrid& knowledge, const TableArea& table, const Viewpoint& v,
-                                  Wanted wanted) const;
+  [[nodiscard]] double operator()(const KnowledgeGrid& knowledge, const Viewpoint& v, Wanted wanted) const;
 
   /// Change of entropy that one measurement makes of an unknown cell, bits: of a hit and a miss with equal
   /// probability.

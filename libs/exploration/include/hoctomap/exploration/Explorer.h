@@ -33,26 +33,38 @@ struct ExplorationConfig {
   std::uint64_t seed = 1;
 };
 
+/// What a step of the exploration did.
+enum class StepKind : std::uint8_t {
+  look_around,  ///< from where the robot stood at the start
+  first_view,   ///< of a table: to find its objects
+  view,         ///< of a table, for what its objects hide
+  move_failed,  ///< nothing was measured
+  explored,     ///< the table is done: no viewpoint was worth it
+  unreachable,  ///< no place from which the table can be seen can be reached
+  out_of_views  ///< the table has had its number of views
+};
+[[nodiscard]] std::string toString(StepKind kind);
+
 /// One turn of the loop of Algorithm 1.
 struct ExplorationStep {
-  std::uint64_t step = 0;
-  std::uint64_t scan = 0;       ///< number of the measurement that it led to, if `measured`
-  std::optional<NodeId> table;  ///< none while looking around
   struct Candidate {
     Viewpoint viewpoint;
-    double gain = 0.0;
+    double gain = 0.0;  ///< bits or cells, see GainMeasure
     double cost = 0.0;  ///< s
     double utility = 0.0;
   };
-  std::vector<Candidate> candidates;
-  std::optional<std::size_t> chosen;  ///< of the candidates
-  std::vector<Eigen::Vector2d> path;
-  double travel = 0.0;    ///< m, of this step
-  bool measured = false;  ///< false: the move failed, or the table is explored or cannot be seen
-  std::string note;  ///< `look_around`, `first_view`, `view`, `explored`, `unreachable`, `move_failed`, ...
+
+  std::uint64_t step = 0;
+  StepKind kind = StepKind::look_around;
+  std::optional<NodeId> table;                        ///< none while looking around
+  std::optional<std::uint64_t> scan;                  ///< number of the measurement that was taken
+  std::vector<Candidate> candidates;                  ///< V
+  std::optional<std::size_t> chosen;                  ///< v*, of the candidates
+  std::vector<Eigen::Vector2d> path;                  ///< to it
+  double travel = 0.0;                                ///< m, of this step
   double entropy = 0.0;                               ///< bits, of the space over the table before the step
-  std::size_t unknown_in_boxes = 0;                   ///< cells before the step
-  const TraversabilityMap* traversability = nullptr;  ///< valid during the call
+  std::size_t unknown_in_boxes = 0;                   ///< cells, before the step
+  const TraversabilityMap* traversability = nullptr;  ///< m_trav, during the call; none while looking around
 };
 
 enum class TableOutcome : std::uint8_t { explored, unreachable, out_of_views };
@@ -74,22 +86,36 @@ class Explorer {
 
   /// All of them have to live as long as this. @throws ConfigError if the configuration makes no sense.
   Explorer(const ExplorationConfig& config, Robot& robot, MeasurementSource& sensor, HierarchyMapper& mapper);
+  ~Explorer();
+  Explorer(const Explorer&) = delete;
+  Explorer& operator=(const Explorer&) = delete;
+  Explorer(Explorer&&) = delete;
+  Explorer& operator=(Explorer&&) = delete;
 
   void onMeasurement(OnMeasurement call) { on_measurement_ = std::move(call); }
   void onStep(OnStep call) { on_step_ = std::move(call); }
 
-  /// Explores until no table is left that is neither explored nor known to be out of reach.
+  /// Explores until no table is left that is neither explored nor known to be out of reach. What the mapper
+  /// still holds back for confirmation afterwards is for the caller to let in (`HierarchyMapper::finish`).
+  /// @throws InputError if the sensor gives no measurement
   ExplorationResult run();
 
  private:
   struct TableState;
+  struct Scan;
 
   void lookAround();
-  [[nodiscard]] std::optional<TableArea> findNearestUnexploredTable() const;
-  void exploreStep(const TableArea& table);
-  bool goAndMeasure(const Viewpoint& v, const TravelCost& travel, ExplorationStep& step);
+  [[nodiscard]] std::optional<TableArea> findNearestUnexploredTable();
+  void exploreStep(const TableArea& area);
+  [[nodiscard]] static Wanted wantedOf(const TableState& state);
+  void evaluate(ExplorationStep& step, const std::vector<Viewpoint>& candidates,
+                const KnowledgeGrid& knowledge, const TravelCost& travel, Wanted wanted) const;
+  void goAndMeasure(TableState& state, const TravelCost& travel, ExplorationStep& step);
   void measure(ExplorationStep& step);
-  [[nodiscard]] ClearedSpace& clearedOf(const TableArea& table);
+  void end(TableState& state, TableOutcome outcome, ExplorationStep& step);
+  void report(ExplorationStep& step);
+  [[nodiscard]] const ClearedSpace& clearedOf(TableState& state);
+  [[nodiscard]] std::vector<Viewpoint> candidatesOf(const TableArea& area, const TravelCost& travel) const;
 
   ExplorationConfig config_;
   Robot& robot_;
@@ -100,7 +126,7 @@ class Explorer {
   OnMeasurement on_measurement_;
   OnStep on_step_;
   std::map<NodeId, TableState> tables_;
-  std::vector<Measurement> measurements_;
+  std::vector<Scan> scans_;              ///< for the space over tables that are found later
   std::vector<Eigen::Vector2d> failed_;  ///< places that could not be reached
   std::uint64_t steps_ = 0;
   ExplorationResult result_;

@@ -44,6 +44,16 @@ class TraversabilityMap {
 
   [[nodiscard]] std::optional<GridCell> cellOf(const Eigen::Vector2d& place) const;
   [[nodiscard]] Eigen::Vector2d center(const GridCell& cell) const;
+  /// Row-major place of a cell, and back.
+  [[nodiscard]] std::size_t index(const GridCell& cell) const {
+    return static_cast<std::size_t>(cell.y) * static_cast<std::size_t>(width_) +
+           static_cast<std::size_t>(cell.x);
+  }
+  [[nodiscard]] GridCell cell(std::size_t index) const {
+    return {static_cast<int>(index % static_cast<std::size_t>(width_)),
+            static_cast<int>(index / static_cast<std::size_t>(width_))};
+  }
+  [[nodiscard]] std::size_t cells() const { return states_.size(); }
 
   /// Before growing by the radius.
   [[nodiscard]] State state(const GridCell& cell) const { return states_[index(cell)]; }
@@ -53,12 +63,10 @@ class TraversabilityMap {
   void block(const Eigen::Vector2d& place, double radius);
 
  private:
-  [[nodiscard]] std::size_t index(const GridCell& cell) const {
-    return static_cast<std::size_t>(cell.y) * static_cast<std::size_t>(width_) +
-           static_cast<std::size_t>(cell.x);
-  }
+  void project(const MapHierarchy& map, double lowest, double highest);
+  /// Calls `visit(index)` for the cells whose centres lie within a radius.
   template <class Visit>
-  void forEachWithin(const Eigen::Vector2d& place, double radius, Visit&& visit);
+  void forEachWithin(const Eigen::Vector2d& place, double radius, Visit&& visit) const;
 
   double cell_;
   Eigen::Vector2d corner_;

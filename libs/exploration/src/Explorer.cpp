@@ -1,0 +1,292 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "hoctomap/exploration/Explorer.h"
+
+#include <tbb/parallel_for.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numbers>
+
+#include "hoctomap/geometry/Errors.h"
+
+namespace hoctomap {
+
+namespace {
+
+double lengthOf(const std::vector<Eigen::Vector2d>& path) {
+  double length = 0.0;
+  for (std::size_t i = 1; i < path.size(); ++i) length += (path[i] - path[i - 1]).norm();
+  return length;
+}
+
+Eigen::Vector2d placeOf(const Pose& world_T_base) {
+  return {world_T_base.x(), world_T_base.y()};
+}
+
+}  // namespace
+
+std::string toString(StepKind kind) {
+  switch (kind) {
+    case StepKind::look_around:
+      return "look_around";
+    case StepKind::first_view:
+      return "first_view";
+    case StepKind::view:
+      return "view";
+    case StepKind::move_failed:
+      return "move_failed";
+    case StepKind::explored:
+      return "explored";
+    case StepKind::unreachable:
+      return "unreachable";
+    case StepKind::out_of_views:
+      break;
+  }
+  return "out_of_views";
+}
+
+std::string toString(TableOutcome outcome) {
+  switch (outcome) {
+    case TableOutcome::explored:
+      return "explored";
+    case TableOutcome::unreachable:
+      return "unreachable";
+    case TableOutcome::out_of_views:
+      break;
+  }
+  return "out_of_views";
+}
+
+/// What the exploration knows of a table.
+struct Explorer::TableState {
+  TableArea area;
+  std::optional<ClearedSpace> cleared;
+  std::size_t cleared_scans = 0;  ///< that it has
+  int views = 0;
+  int failed_moves = 0;  ///< in a row
+  std::optional<double> first_everything_gain;
+  std::optional<double> first_box_gain;
+  std::optional<TableOutcome> outcome;
+};
+
+/// What is kept of a measurement.
+struct Explorer::Scan {
+  Eigen::Vector3f origin;
+  PointCloud world_points;
+};
+
+Explorer::Explorer(const ExplorationConfig& config, Robot& robot, MeasurementSource& sensor,
+                   HierarchyMapper& mapper)
+    : config_(config),
+      robot_(robot),
+      sensor_(sensor),
+      mapper_(mapper),
+      sampler_(config.viewpoints, robot.model()),
+      gain_(config.gain, robot.model()) {
+  if (!(config.alpha >= 0.0 && config.alpha <= 1.0))
+    throw ConfigError("[exploration] alpha must lie in [0, 1]");
+  if (!(config.tau >= 0.0)) throw ConfigError("[exploration] tau must not be negative");
+  if (config.first_look < 1 || config.max_views < 1)
+    throw ConfigError("[exploration] views must be positive");
+}
+
+Explorer::~Explorer() = default;
+
+ExplorationResult Explorer::run() {
+  lookAround();
+  while (const auto table = findNearestUnexploredTable()) exploreStep(*table);
+  for (const auto& [id, state] : tables_) {
+    if (state.outcome && mapper_.hierarchy().contains(id)) result_.tables.emplace(id, *state.outcome);
+  }
+  return result_;
+}
+
+/// "A measurement of the robot's surroundings from its current location": all around, since cameras see a
+/// part.
+void Explorer::lookAround() {
+  const Pose start = robot_.world_T_base();
+  const RobotModel& robot = robot_.model();
+  constexpr double kTilt = 0.44;  // radians: floor and tables, and the walls as high as the camera
+  for (int i = 0; i < config_.first_look; ++i) {
+    const double yaw = start.yaw() + 2.0 * std::numbers::pi * i / config_.first_look;
+    const Viewpoint v{
+        Pose(start.x(), start.y(), 0.0, yaw, 0.0, 0.0),
+        Pose(0.0, 0.0, robot.max_sensor_height, 0.0, std::clamp(kTilt, robot.min_tilt, robot.max_tilt), 0.0)};
+    ExplorationStep step;
+    step.candidates.push_back({.viewpoint = v, .cost = robot.measuring_time});
+    step.chosen = 0;
+    const std::vector<Eigen::Vector2d> here{placeOf(start)};
+    if (robot_.moveTo(v, here)) {
+      measure(step);
+    } else {
+      step.kind = StepKind::move_failed;
+    }
+    report(step);
+  }
+}
+
+/// The table of the map that is next to the robot and has no outcome yet.
+std::optional<TableArea> Explorer::findNearestUnexploredTable() {
+  const Eigen::Vector2d here = placeOf(robot_.world_T_base());
+  std::optional<TableArea> nearest;
+  double best = std::numeric_limits<double>::infinity();
+  for (TableArea& area : tableAreas(mapper_.hierarchy(), config_.space)) {
+    if (const auto known = tables_.find(area.node); known != tables_.end() && known->second.outcome) continue;
+    // A table that has been explored may have become a part of another node since.
+    const bool done = std::any_of(tables_.begin(), tables_.end(), [&](const auto& entry) {
+      const auto& [id, state] = entry;
+      constexpr double kSameFace = 0.05;  // m
+      return state.outcome && !mapper_.hierarchy().contains(id) &&
+             state.area.distanceTo(area.center) == 0.0 && std::fabs(state.area.top - area.top) < kSameFace;
+    });
+    const double distance = area.distanceTo(here);
+    if (done || distance >= best) continue;
+    best = distance;
+    nearest = std::move(area);
+  }
+  return nearest;
+}
+
+/// One turn of the loop: V, I and cost of its members, v*, and the measurement there.
+void Explorer::exploreStep(const TableArea& area) {
+  TableState& state = tables_[area.node];
+  state.area = area;
+  const RobotModel& robot = robot_.model();
+  const Eigen::Vector2d here = placeOf(robot_.world_T_base());
+  TraversabilityMap traversability(mapper_.hierarchy(), config_.traversability, robot.radius, robot.height,
+                                   here);
+  for (const Eigen::Vector2d& place : failed_) traversability.block(place, robot.radius);
+  const TravelCost travel(traversability, here, robot.speed, robot.measuring_time);
+  const KnowledgeGrid knowledge(mapper_.hierarchy(), area, clearedOf(state), config_.cell, robot.max_range);
+
+  ExplorationStep step;
+  step.table = area.node;
+  step.traversability = &traversability;
+  step.entropy = knowledge.entropy();
+  step.unknown_in_boxes = knowledge.count(Knowledge::unknown_in_box);
+  const std::vector<Viewpoint> candidates = candidatesOf(area, travel);
+  if (candidates.empty()) return end(state, TableOutcome::unreachable, step);
+  if (state.views >= config_.max_views) return end(state, TableOutcome::out_of_views, step);
+
+  const Wanted wanted = wantedOf(state);
+  evaluate(step, candidates, knowledge, travel, wanted);
+  const auto by = [&step](double ExplorationStep::Candidate::*what) {
+    return std::max_element(step.candidates.begin(), step.candidates.end(),
+                            [what](const auto& a, const auto& b) { return a.*what < b.*what; });
+  };
+  const double best_gain = by(&ExplorationStep::Candidate::gain)->gain;
+  std::optional<double>& first_gain =
+      wanted == Wanted::boxes ? state.first_box_gain : state.first_everything_gain;
+  if (!first_gain) first_gain = best_gain;
+  step.kind = wanted == Wanted::boxes ? StepKind::view : StepKind::first_view;
+  if (!(best_gain > config_.tau * *first_gain)) {
+    // Never seen at all: not from where the robot can get to.
+    return end(state, state.views == 0 ? TableOutcome::unreachable : TableOutcome::explored, step);
+  }
+  step.chosen = static_cast<std::size_t>(by(&ExplorationStep::Candidate::utility) - step.candidates.begin());
+  goAndMeasure(state, travel, step);
+  report(step);
+}
+
+/// The first view of a table looks for its objects anywhere over it; afterwards what is unknown in their
+/// boxes counts: from above, top and front fix most of a box, so that its unknown part is the sides that
+/// nobody has seen.
+Wanted Explorer::wantedOf(const TableState& state) {
+  return state.views == 0 ? Wanted::everything : Wanted::boxes;
+}
+
+std::vector<Viewpoint> Explorer::candidatesOf(const TableArea& area, const TravelCost& travel) const {
+  std::vector<Viewpoint> candidates = sampler_.sample(area, travel, config_.seed + steps_);
+  if (!candidates.empty()) return candidates;
+  // Nothing near it: the nearest place that the camera reaches the table from.
+  const TraversabilityMap& map = travel.map();
+  double best = robot_.model().max_range;
+  std::optional<Eigen::Vector2d> nearest;
+  for (std::size_t i = 0; i < map.cells(); ++i) {
+    const Eigen::Vector2d place = map.center(map.cell(i));
+    if (!travel.length(place)) continue;
+    const double distance = area.distanceTo(place);
+    if (distance >= best) continue;
+    best = distance;
+    nearest = place;
+  }
+  if (nearest) candidates.push_back(sampler_.facing(area, *nearest, robot_.model().max_sensor_height));
+  return candidates;
+}
+
+void Explorer::evaluate(ExplorationStep& step, const std::vector<Viewpoint>& candidates,
+                        const KnowledgeGrid& knowledge, const TravelCost& travel, Wanted wanted) const {
+  step.candidates.resize(candidates.size());
+  tbb::parallel_for(std::size_t{0}, candidates.size(), [&](std::size_t i) {
+    ExplorationStep::Candidate& candidate = step.candidates[i];
+    candidate.viewpoint = candidates[i];
+    candidate.gain = gain_(knowledge, candidates[i], wanted);
+    candidate.cost = *travel.seconds(placeOf(candidates[i].world_T_base));  // candidates can be reached
+    candidate.utility = config_.utility == UtilityForm::ratio
+                            ? candidate.gain / candidate.cost
+                            : config_.alpha * candidate.gain - (1.0 - config_.alpha) * candidate.cost;
+  });
+}
+
+void Explorer::goAndMeasure(TableState& state, const TravelCost& travel, ExplorationStep& step) {
+  const Viewpoint& goal = step.candidates[*step.chosen].viewpoint;
+  step.path = travel.path(placeOf(goal.world_T_base));
+  const Eigen::Vector2d before = placeOf(robot_.world_T_base());
+  if (robot_.moveTo(goal, step.path)) {
+    step.travel = lengthOf(step.path);
+    state.failed_moves = 0;
+    ++state.views;
+    measure(step);
+  } else {
+    step.kind = StepKind::move_failed;
+    step.travel = (placeOf(robot_.world_T_base()) - before).norm();
+    failed_.push_back(placeOf(goal.world_T_base));
+    constexpr int kPatience = 5;
+    if (++state.failed_moves >= kPatience) state.outcome = TableOutcome::unreachable;
+  }
+  result_.travel += step.travel;
+  result_.seconds += step.travel / robot_.model().speed;
+}
+
+void Explorer::measure(ExplorationStep& step) {
+  auto item = sensor_.next();
+  if (!item || !std::holds_alternative<Measurement>(*item)) {
+    throw InputError("the robot's sensor gave no measurement");
+  }
+  const Measurement& z = std::get<Measurement>(*item);
+  const UpdateReport update = mapper_.integrate(z);
+  step.scan = z.scan;
+  ++result_.measurements;
+  result_.seconds += robot_.model().measuring_time;
+  scans_.push_back({z.origin().cast<float>(), z.world_points});
+  if (on_measurement_) on_measurement_(z, update);
+}
+
+void Explorer::end(TableState& state, TableOutcome outcome, ExplorationStep& step) {
+  state.outcome = outcome;
+  step.kind = outcome == TableOutcome::explored      ? StepKind::explored
+              : outcome == TableOutcome::unreachable ? StepKind::unreachable
+                                                     : StepKind::out_of_views;
+  report(step);
+}
+
+void Explorer::report(ExplorationStep& step) {
+  step.step = steps_++;
+  if (on_step_) on_step_(step);
+}
+
+/// The space over a table with all scans so far; made anew when the table turns out to be larger.
+const ClearedSpace& Explorer::clearedOf(TableState& state) {
+  if (!state.cleared || !state.cleared->space().contains(state.area.space)) {
+    state.cleared.emplace(state.area.space, config_.cleared_resolution);
+    state.cleared_scans = 0;
+  }
+  for (; state.cleared_scans < scans_.size(); ++state.cleared_scans) {
+    const Scan& scan = scans_[state.cleared_scans];
+    state.cleared->add(scan.origin, scan.world_points);
+  }
+  return *state.cleared;
+}
+
+}  // namespace hoctomap
