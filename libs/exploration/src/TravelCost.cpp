@@ -45,8 +45,10 @@ Graph neighbours(const TraversabilityMap& map) {
           static_cast<std::uint32_t>(map.cells())};
 }
 
-/// The traversable cell next to a place.
+/// The cell of a place, or the traversable one next to it.
 std::optional<std::size_t> nearestTraversable(const TraversabilityMap& map, const Eigen::Vector2d& place) {
+  const auto here = map.cellOf(place);
+  if (here && map.traversable(*here)) return map.index(*here);
   std::optional<std::size_t> nearest;
   double best = kNoWay;
   for (std::size_t i = 0; i < map.cells(); ++i) {
