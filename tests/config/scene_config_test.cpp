@@ -10,6 +10,8 @@
 #include <string>
 
 #include "hoctomap/geometry/Errors.h"
+#include "hoctomap/simulation/FloorPlan.h"
+#include "hoctomap/simulation/SurfaceCoverage.h"
 #include "support/SharedData.h"
 
 namespace hoctomap::test {
@@ -168,6 +170,44 @@ TEST(SceneConfig, AssignmentsChangeAFile) {
 
 // What ships.
 
+/// An object grown by `half_gap` to all sides lies within its table and meets no other grown object.
+void expectObjectsApart(const Scene& scene, double half_gap) {
+  std::vector<std::pair<std::string, std::vector<Eigen::Vector3d>>> points;
+  for (const SolidId id : scene.ids()) {
+    const Solid& solid = scene.solid(id);
+    if (solid.label != SolidLabel::object || !solid.support) continue;
+    const Solid& table = scene.solid(*solid.support);
+    const auto top = surfaceExtent(*table.surface, Eigen::Isometry3d::Identity()).box;
+    const Eigen::Isometry3d table_T_solid = toIsometry(solid.support_T_solid);
+    const Eigen::Isometry3d world_T_solid = toIsometry(scene.world_T_solid(id));
+    auto& list = points.emplace_back(solid.name, std::vector<Eigen::Vector3d>{}).second;
+    for (const auto& t : solid.surface->triangles)
+      for (const double a : {0.0, 0.25, 0.5, 0.75, 1.0})  // along the edges: corners alone are too few
+        for (unsigned i = 0; i < 3; ++i) {
+          const Eigen::Vector3d p = (1.0 - a) * solid.surface->vertices[t[i]].cast<double>() +
+                                    a * solid.surface->vertices[t[(i + 1) % 3]].cast<double>();
+          list.push_back(world_T_solid * p);
+          const Eigen::Vector3d on_table = table_T_solid * p;
+          ASSERT_LT(std::abs(on_table.x()), top.max().x() - half_gap) << solid.name;
+          ASSERT_LT(std::abs(on_table.y()), top.max().y() - half_gap) << solid.name;
+        }
+  }
+  // Cells of half a gap in plan: two objects in cells nearer than three apart could be nearer than a gap.
+  std::map<std::pair<long, long>, std::set<std::string>> cells;
+  for (const auto& [name, list] : points)
+    for (const auto& p : list)
+      cells[{std::lround(p.x() / half_gap), std::lround(p.y() / half_gap)}].insert(name);
+  for (const auto& [cell, names] : cells)
+    for (long dx = -2; dx <= 2; ++dx)
+      for (long dy = -2; dy <= 2; ++dy) {
+        const auto other = cells.find({cell.first + dx, cell.second + dy});
+        if (other == cells.end()) continue;
+        std::set<std::string> both = names;
+        both.insert(other->second.begin(), other->second.end());
+        ASSERT_EQ(both.size(), 1U) << *both.begin() << " and " << *both.rbegin() << " are too near";
+      }
+}
+
 class ShippedScene : public testing::TestWithParam<const char*> {
  protected:
   /// The scene with a quarter of the pixels each way, without noise: enough to see what is visible.
@@ -201,41 +241,7 @@ TEST_P(ShippedScene, EveryObjectIsVisibleInAtLeastThreeViews) {
 
 TEST_P(ShippedScene, ObjectsStandApartAndWithinTheirTable) {
   const Simulation simulation = coarse();
-  const Scene scene = simulation.script.at(simulation.scene, simulation.views.size());
-  const auto halfGap = 0.02;  // an object grown by this to all sides meets no other grown object
-  std::vector<std::pair<std::string, std::vector<Eigen::Vector3d>>> points;
-  for (const SolidId id : scene.ids()) {
-    const Solid& solid = scene.solid(id);
-    if (solid.label != SolidLabel::object || !solid.support) continue;
-    const Solid& table = scene.solid(*solid.support);
-    const auto top = surfaceExtent(*table.surface, Eigen::Isometry3d::Identity()).box;
-    const Eigen::Isometry3d table_T_solid = toIsometry(solid.support_T_solid);
-    const Eigen::Isometry3d world_T_solid = toIsometry(scene.world_T_solid(id));
-    auto& list = points.emplace_back(solid.name, std::vector<Eigen::Vector3d>{}).second;
-    for (const auto& t : solid.surface->triangles)
-      for (const double a : {0.0, 0.25, 0.5, 0.75, 1.0})  // along the edges: corners alone are too few
-        for (unsigned i = 0; i < 3; ++i) {
-          const Eigen::Vector3d p = (1.0 - a) * solid.surface->vertices[t[i]].cast<double>() +
-                                    a * solid.surface->vertices[t[(i + 1) % 3]].cast<double>();
-          list.push_back(world_T_solid * p);
-          const Eigen::Vector3d on_table = table_T_solid * p;
-          ASSERT_LT(std::abs(on_table.x()), top.max().x() - halfGap) << solid.name;
-          ASSERT_LT(std::abs(on_table.y()), top.max().y() - halfGap) << solid.name;
-        }
-  }
-  // Cells of 2 cm in plan: two objects in cells nearer than three apart could be nearer than 4 cm.
-  std::map<std::pair<long, long>, std::set<std::string>> cells;
-  for (const auto& [name, list] : points)
-    for (const auto& p : list) cells[{std::lround(p.x() / 0.02), std::lround(p.y() / 0.02)}].insert(name);
-  for (const auto& [cell, names] : cells)
-    for (long dx = -2; dx <= 2; ++dx)
-      for (long dy = -2; dy <= 2; ++dy) {
-        const auto other = cells.find({cell.first + dx, cell.second + dy});
-        if (other == cells.end()) continue;
-        std::set<std::string> both = names;
-        both.insert(other->second.begin(), other->second.end());
-        ASSERT_EQ(both.size(), 1U) << *both.begin() << " and " << *both.rbegin() << " are too near";
-      }
+  expectObjectsApart(simulation.script.at(simulation.scene, simulation.views.size()), 0.02);
 }
 
 TEST_P(ShippedScene, TablesStandWhereTablesAreLookedFor) {
@@ -253,6 +259,67 @@ TEST_P(ShippedScene, TablesStandWhereTablesAreLookedFor) {
 INSTANTIATE_TEST_SUITE_P(All, ShippedScene,
                          testing::Values("small_objects", "big_objects", "occlusion", "room", "demo"),
                          [](const auto& scene) { return std::string(scene.param); });
+
+class ExplorationScene : public testing::TestWithParam<const char*> {
+ protected:
+  Simulation simulation_ = loadScene(sourceDir() / "configs/scenes" / (std::string(GetParam()) + ".ini"));
+};
+
+TEST_P(ExplorationScene, ARobotCanStandAtItsStartAndSeeEveryObject) {
+  ASSERT_TRUE(simulation_.robot);
+  EXPECT_TRUE(simulation_.views.empty());
+  const RobotModel& model = simulation_.robot->model;
+  EXPECT_EQ(model.camera.width, simulation_.sensor.camera.width);
+  const FloorPlan plan(simulation_.scene, model.radius, simulation_.robot->ground_clearance, model.height);
+  EXPECT_TRUE(plan.fits({simulation_.robot->world_T_start.x(), simulation_.robot->world_T_start.y()}));
+  CoverageConfig coarse;
+  coarse.sample_spacing = 0.01;
+  const SurfaceCoverage coverage(simulation_.scene, *simulation_.robot, coarse);
+  EXPECT_GE(coverage.objects().size(), 10U);
+  for (const auto& object : coverage.objects())
+    EXPECT_GT(3 * object.world_visible.size(), object.samples) << object.name;
+}
+
+TEST_P(ExplorationScene, ObjectsStandApartAndWithinTheirTable) {
+  expectObjectsApart(simulation_.scene, 0.012);
+}
+
+INSTANTIATE_TEST_SUITE_P(All, ExplorationScene,
+                         testing::Values("explore_table", "explore_two_tables", "explore_wall",
+                                         "explore_cluttered"),
+                         [](const auto& scene) { return std::string(scene.param); });
+
+TEST(SceneConfig, ARobotIsReadInMetresAndDegrees) {
+  const std::string base =
+      "[solid.floor]\nlabel=background\nsize=4 4 0.1\nposition=0 0 -0.1\n[camera]\nmax_range=3\n";
+  const Simulation s = read(base + R"(
+[robot]
+start = 1 -0.5 90
+radius = 0.3
+min_sensor_height = 1.1
+max_sensor_height = 1.5
+max_tilt = 60
+position_error = 0.01
+heading_error = 1
+move_failure = 0.2
+)");
+  ASSERT_TRUE(s.robot);
+  const SimulatedRobotConfig& robot = *s.robot;
+  EXPECT_NEAR(robot.world_T_start.x(), 1.0, 1e-12);
+  EXPECT_NEAR(robot.world_T_start.yaw(), 1.5707963, 1e-6);
+  EXPECT_DOUBLE_EQ(robot.model.radius, 0.3);
+  EXPECT_DOUBLE_EQ(robot.model.min_range, s.sensor.min_range);
+  EXPECT_DOUBLE_EQ(robot.model.max_range, 3.0);  // no farther than the camera
+  EXPECT_NEAR(robot.model.max_tilt, 1.0471976, 1e-6);
+  EXPECT_NEAR(robot.heading_error, 0.0174533, 1e-6);
+  EXPECT_DOUBLE_EQ(robot.move_failure, 0.2);
+  EXPECT_FALSE(read(kMinimal).robot);
+
+  EXPECT_TRUE(contains(problems(base + "[robot]\nradius=0.3\n"), "needs a start"));
+  EXPECT_TRUE(
+      contains(problems(base + "[robot]\nstart=0 0 0\nmax_sensor_height=0.5\n"), "max_sensor_height"));
+  EXPECT_TRUE(contains(problems(base + "[robot]\nstart=0 0 0\nmove_failure=2\n"), "move_failure"));
+}
 
 TEST(OcclusionScene, HasTheThreeStages) {
   const Simulation s = loadScene(sourceDir() / "configs/scenes/occlusion.ini");

@@ -116,16 +116,50 @@ std::vector<View> readPath(IniDocument& ini, const std::string& s) {
   return repeated;
 }
 
+/// @param sensor whose camera and nearest range the robot's are
+std::optional<SimulatedRobotConfig> readRobot(IniDocument& ini, const RangeSensorModel& sensor) {
+  const std::string s = "robot";
+  SimulatedRobotConfig robot;
+  RobotModel& m = robot.model;
+  m.camera = sensor.camera;
+  m.min_range = sensor.min_range;
+  m.radius = ini.number(s, "radius", m.radius, kPositive);
+  m.height = ini.number(s, "height", m.height, kPositive);
+  m.speed = ini.number(s, "speed", m.speed, kPositive);
+  m.measuring_time = ini.number(s, "measuring_time", m.measuring_time, kNotNegative);
+  m.max_range = ini.number(s, "max_range", std::min(m.max_range, sensor.max_range), kPositive);
+  m.min_sensor_height = ini.number(s, "min_sensor_height", m.min_sensor_height, kPositive);
+  m.max_sensor_height =
+      ini.number(s, "max_sensor_height", std::max(m.max_sensor_height, m.min_sensor_height), kPositive);
+  m.min_tilt = kDegree * ini.number(s, "min_tilt", m.min_tilt / kDegree, {-90.0, 90.0});
+  m.max_tilt = kDegree * ini.number(s, "max_tilt", 45.0, {-90.0, 90.0});
+  const auto start = ini.numbers(s, "start", {0.0, 0.0, 0.0}, 3, kAnyNumber);
+  robot.world_T_start = Pose(start[0], start[1], 0.0, kDegree * start[2], 0.0, 0.0);
+  robot.body_margin = ini.number(s, "body_margin", robot.body_margin, kNotNegative);
+  robot.ground_clearance = ini.number(s, "ground_clearance", robot.ground_clearance, kNotNegative);
+  robot.position_error = ini.number(s, "position_error", robot.position_error, kNotNegative);
+  robot.heading_error = kDegree * ini.number(s, "heading_error", 0.0, kNotNegative);
+  robot.move_failure = ini.number(s, "move_failure", robot.move_failure, kProbability);
+  if (!ini.hasSection(s)) return std::nullopt;
+  if (!ini.has(s, "start")) ini.problem(s, "start", "a robot needs a start: x y yaw");
+  try {
+    check(robot);
+  } catch (const ConfigError& error) {
+    ini.problem(s, "", error.what());
+  }
+  return robot;
+}
+
 std::vector<View> readPaths(IniDocument& ini) {
   std::vector<View> views;
-  bool any = false;
+  bool any = ini.hasSection("robot");  // which chooses its own views
   for (const std::string& section : ini.sections()) {
     if (nameAfter("path.", section).empty()) continue;
     any = true;
     const auto more = readPath(ini, section);
     views.insert(views.end(), more.begin(), more.end());
   }
-  if (!any) ini.problem("", "", "a scene needs at least one section [path.NAME]");
+  if (!any) ini.problem("", "", "a scene needs at least one section [path.NAME], or a [robot]");
   return views;
 }
 
@@ -188,6 +222,7 @@ Simulation readScene(IniDocument& ini, const std::filesystem::path& mesh_folder)
   simulation.sensor_label = ini.text("camera", "label", simulation.sensor_label);
   simulation.sensor = readCamera(ini);
   simulation.scene = readSolids(ini, mesh_folder);
+  simulation.robot = readRobot(ini, simulation.sensor);
   simulation.views = readPaths(ini);
   simulation.script = readScript(ini, simulation.scene, simulation.views.size());
   return simulation;

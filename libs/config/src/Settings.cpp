@@ -144,6 +144,13 @@ MappingConfig Settings::mappingConfig() const {
   return config;
 }
 
+ExplorationConfig Settings::explorationConfig() const {
+  ExplorationConfig config = exploration;
+  if (const auto profile = labels.find(hoctomap::labels::object); profile != labels.end())
+    config.gain.sensor = profile->second.occupancy;
+  return config;
+}
+
 std::vector<NamedRule> Settings::labelRules() const {
   std::vector<NamedRule> named;
   for (const auto& [label, rule] : rules) named.push_back({label, rule});

@@ -29,6 +29,9 @@ using P = LabelProfile;
 using O = OccupancyModel;
 using X = ExistenceParameters;
 using R = LabelRule;
+using A = ExplorationConfig;
+using V = ViewpointConfig;
+using G = GainConfig;
 
 constexpr Range any{};
 constexpr Range share{0.0, 1.0};
@@ -167,6 +170,61 @@ constexpr auto settings_keys = std::to_array<Key<Settings>>({
      &at<&S::existence, &E::min_in_view>},
     {"existence", "max_beams", "beams", count, "Beams that are compared for one node and scan, at most",
      &at<&S::existence, &E::max_beams>},
+
+    {"exploration", "viewpoint_radius", "m", aboveUpTo(0, 100),
+     "Viewpoints are drawn no farther than this from the outline of a table",
+     &at<&S::exploration, &A::viewpoints, &V::radius>},
+    {"exploration", "candidates", "", within(1, 10000), "Viewpoints of which the best is chosen",
+     &at<&S::exploration, &A::viewpoints, &V::candidates>},
+    {"exploration", "angular_bins", "", within(1, 10000),
+     "Directions around a table in each of which as many viewpoints are drawn as there is room for",
+     &at<&S::exploration, &A::viewpoints, &V::angular_bins>},
+    {"exploration", "gain", "", any,
+     "Expected information of a viewpoint (Eq. 15): unknown cells on each beam times their change of entropy "
+     "(the "
+     "paper), or distinct unknown cells swept",
+     &at<&S::exploration, &A::gain, &G::measure>},
+    {"exploration", "unknown_space", "", any,
+     "Whether expected beams pass through unknown cells (the paper), or only with a probability that falls "
+     "with "
+     "the way",
+     &at<&S::exploration, &A::gain, &G::unknown_space>},
+    {"exploration", "attenuation", "m", aboveUpTo(0, 100),
+     "`occluding`: after this way through unknown space the share 1/e of the beams is left",
+     &at<&S::exploration, &A::gain, &G::attenuation>},
+    {"exploration", "gain_columns", "", within(1, 4096),
+     "Expected beams of a viewpoint: columns of a coarse image", &at<&S::exploration, &A::gain, &G::columns>},
+    {"exploration", "gain_rows", "", within(1, 4096), "See `gain_columns`",
+     &at<&S::exploration, &A::gain, &G::rows>},
+    {"exploration", "gain_cell", "m", aboveUpTo(0, 1), "Cell of the grid that expected beams go through",
+     &at<&S::exploration, &A::cell>},
+    {"exploration", "cleared_resolution", "m", aboveUpTo(0, 1),
+     "Voxel of what all beams together say of the space over a table",
+     &at<&S::exploration, &A::cleared_resolution>},
+    {"exploration", "space_margin", "m", within(0, 10),
+     "The space in which objects may stand reaches so far beyond the outline of the table",
+     &at<&S::exploration, &A::space, &TableSpace::margin>},
+    {"exploration", "space_height", "m", aboveUpTo(0, 10), "How high that space is, at least",
+     &at<&S::exploration, &A::space, &TableSpace::height>},
+    {"exploration", "utility", "", any,
+     "Of gain and cost (s): gain / cost, or alpha gain - (1 - alpha) cost (Eq. 13)",
+     &at<&S::exploration, &A::utility>},
+    {"exploration", "alpha", "", share, "Of Eq. 13, for `additive`", &at<&S::exploration, &A::alpha>},
+    {"exploration", "tau", "", share,
+     "A table is explored when no viewpoint has more than this share of its first gain",
+     &at<&S::exploration, &A::tau>},
+    {"exploration", "first_look", "scans", within(1, 1000),
+     "Scans all around at the start, for the background", &at<&S::exploration, &A::first_look>},
+    {"exploration", "max_views", "scans", count, "Viewpoints of one table, at most",
+     &at<&S::exploration, &A::max_views>},
+    {"exploration", "grid_cell", "m", aboveUpTo(0, 1), "Cell of the traversability map",
+     &at<&S::exploration, &A::traversability, &TraversabilityConfig::cell>},
+    {"exploration", "lowest_obstacle", "m", within(0, 10), "What is lower above the floor is driven over",
+     &at<&S::exploration, &A::traversability, &TraversabilityConfig::lowest_obstacle>},
+    {"exploration", "unknown_is_free", "", any, "Whether the robot may go where nothing has been seen",
+     &at<&S::exploration, &A::traversability, &TraversabilityConfig::unknown_is_free>},
+    {"exploration", "seed", "", within(0, 4294967295.0), "Seed of the viewpoints",
+     &at<&S::exploration, &A::seed>},
 
     {"limits", "max_inflated_bytes", "bytes", big_count, "Size of a log after decompression",
      &at<&S::limits, &L::max_inflated_bytes>},

@@ -15,7 +15,8 @@ template <class Owner>
 using Access =
     std::variant<double& (*)(Owner&), int& (*)(Owner&), std::int64_t& (*)(Owner&), std::uint64_t& (*)(Owner&),
                  bool& (*)(Owner&), SegmentationMethod& (*)(Owner&), FrameChoice& (*)(Owner&),
-                 Carve& (*)(Owner&), Grazing& (*)(Owner&), RuleKind& (*)(Owner&), RuleShape& (*)(Owner&)>;
+                 Carve& (*)(Owner&), Grazing& (*)(Owner&), RuleKind& (*)(Owner&), RuleShape& (*)(Owner&),
+                 GainMeasure& (*)(Owner&), UnknownSpace& (*)(Owner&), UtilityForm& (*)(Owner&)>;
 
 /// One row of the table of keys, the only place where a key is spelled.
 template <class Owner>

@@ -28,6 +28,9 @@ template <class T>
   if constexpr (std::is_same_v<T, RuleKind>) return {"none", "object", "table"};
   if constexpr (std::is_same_v<T, RuleShape>) return {"any", "flat", "compact", "tall"};
   if constexpr (std::is_same_v<T, Grazing>) return {"clear", "spare"};
+  if constexpr (std::is_same_v<T, GainMeasure>) return {"entropy", "swept_cells"};
+  if constexpr (std::is_same_v<T, UnknownSpace>) return {"transparent", "occluding"};
+  if constexpr (std::is_same_v<T, UtilityForm>) return {"ratio", "additive"};
   return {};
 }
 

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "hoctomap/existence/BeamExistenceModel.h"
+#include "hoctomap/exploration/Explorer.h"
 #include "hoctomap/mapping/HierarchyMapper.h"
 #include "hoctomap/mapping/LabelProfile.h"
 #include "hoctomap/tabletop/LabelRules.h"
@@ -55,11 +56,14 @@ struct Settings {
   SensorConfig sensor;
   TabletopSegmentationConfig tabletop;
   BeamExistenceConfig existence;
+  ExplorationConfig exploration;  ///< without the sensor model: see explorationConfig()
   Limits limits;
   LabelProfiles labels;
   std::map<Label, LabelRule> rules;  ///< of labels other than background, table and object
 
   [[nodiscard]] MappingConfig mappingConfig() const;
+  /// `exploration` with the sensor model of objects.
+  [[nodiscard]] ExplorationConfig explorationConfig() const;
   /// The rules that name segments.
   [[nodiscard]] std::vector<NamedRule> labelRules() const;
 };

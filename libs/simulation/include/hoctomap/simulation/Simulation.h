@@ -3,17 +3,19 @@
 
 #include <cstdint>
 #include <functional>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "hoctomap/simulation/Scene.h"
 #include "hoctomap/simulation/SceneScript.h"
 #include "hoctomap/simulation/SimulatedRangeSensor.h"
+#include "hoctomap/simulation/SimulatedRobotConfig.h"
 #include "hoctomap/simulation/ViewPath.h"
 
 namespace hoctomap {
 
-/// All that a simulated log is made of. The log has one scan a view.
+/// All that a simulated log is made of. The log has one scan a view, unless a robot chooses the views itself.
 struct Simulation {
   Scene scene;  ///< before the first scan
   SceneScript script;
@@ -23,6 +25,7 @@ struct Simulation {
   std::uint64_t seed = 1;
   double start_stamp = 1.3e9;  ///< seconds since the epoch, of scan 0
   double scan_period = 0.5;    ///< seconds
+  std::optional<SimulatedRobotConfig> robot;
 };
 
 /// One scan of the log, with its truth.
