@@ -30,6 +30,7 @@ TEST(ViewpointSampler, PlacesThatCanBeReachedNearTheTableFacingIt) {
   const RobotModel robot = smallRobot();
   ViewpointConfig config;
   config.radius = 0.8;
+  config.candidates = 40;
   const ViewpointSampler sampler(config, robot);
   const auto candidates = sampler.sample(scene.table, scene.travel, 5);
   ASSERT_EQ(candidates.size(), 40U);

@@ -12,7 +12,7 @@ namespace hoctomap {
 
 struct ViewpointConfig {
   double radius = 1.2;    ///< m from the table's outline, at most
-  int candidates = 40;    ///< in a set V
+  int candidates = 100;   ///< in a set V
   int angular_bins = 20;  ///< around the table: as many candidates in each as there is room for
 };
 
