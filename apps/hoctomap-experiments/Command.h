@@ -13,6 +13,7 @@ using Action = std::function<int()>;
 // chosen.
 void addViACommand(CLI::App& app, Action& action);
 void addViBCommand(CLI::App& app, Action& action);
+void addViCCommand(CLI::App& app, Action& action);
 void addPerformanceCommand(CLI::App& app, Action& action);
 void addChangesCommand(CLI::App& app, Action& action);
 void addIdentityCommand(CLI::App& app, Action& action);

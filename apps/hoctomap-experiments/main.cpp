@@ -25,6 +25,7 @@ int main(int argc, char** argv) {
   hoctomap::Action action;
   hoctomap::addViACommand(app, action);
   hoctomap::addViBCommand(app, action);
+  hoctomap::addViCCommand(app, action);
   hoctomap::addPerformanceCommand(app, action);
   hoctomap::addChangesCommand(app, action);
   hoctomap::addIdentityCommand(app, action);

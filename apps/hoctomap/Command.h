@@ -18,6 +18,7 @@ void addRenderCommand(CLI::App& app, Action& action);
 void addExplainCommand(CLI::App& app, Action& action);
 void addDiffCommand(CLI::App& app, Action& action);
 void addSimulateCommand(CLI::App& app, Action& action);
+void addExploreCommand(CLI::App& app, Action& action);
 
 /// Adds a subcommand with a help text that ends in examples, one a line.
 CLI::App* addCommand(CLI::App& app, const std::string& name, const std::string& what,

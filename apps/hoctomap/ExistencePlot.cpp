@@ -1,67 +1,18 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "ExistencePlot.h"
 
-#include <unistd.h>
-
 #include <algorithm>
-#include <cerrno>
-#include <cstdlib>
-#include <sstream>
 
+#include "Gnuplot.h"
 #include "TextTable.h"
 #include "hoctomap/geometry/Errors.h"
 #include "hoctomap/io/AtomicFile.h"
-#include "hoctomap/io/ChildProcess.h"
-#include "hoctomap/io/CsvText.h"
 
 namespace hoctomap {
 
 namespace {
 
 namespace fs = std::filesystem;
-
-/// A script for gnuplot that is gone at the end.
-class ScriptFile {
- public:
-  explicit ScriptFile(const std::string& text) {
-    std::string name = (fs::temp_directory_path() / "hoctomap-plot-XXXXXX").string();
-    const UniqueFd fd(::mkstemp(name.data()));
-    if (fd.get() < 0) throw FileError(name + ": cannot make a temporary file");
-    path_ = name;
-    writeTextFile(path_, text);
-  }
-  ~ScriptFile() {
-    std::error_code ignored;
-    fs::remove(path_, ignored);
-  }
-  ScriptFile(const ScriptFile&) = delete;
-  ScriptFile& operator=(const ScriptFile&) = delete;
-  [[nodiscard]] std::string path() const { return path_.string(); }
-
- private:
-  fs::path path_;
-};
-
-fs::path findGnuplot() {
-  if (const char* set = std::getenv("HOCTOMAP_GNUPLOT"); set != nullptr && *set != '\0') return set;
-  const char* path = std::getenv("PATH");
-  std::istringstream places(path == nullptr ? "/usr/bin:/bin" : path);
-  for (std::string place; std::getline(places, place, ':');) {
-    const fs::path program = fs::path(place) / "gnuplot";
-    if (!place.empty() && ::access(program.c_str(), X_OK) == 0) return program;
-  }
-  throw FileError("--plot needs gnuplot, which is not installed (Debian package gnuplot-nox)");
-}
-
-std::string readAll(int fd) {
-  std::string bytes;
-  std::string buffer(std::size_t{1} << 16U, '\0');
-  while (true) {
-    const auto got = ::read(fd, buffer.data(), buffer.size());
-    if (got > 0) bytes.append(buffer, 0, static_cast<std::size_t>(got));
-    if (got == 0 || (got < 0 && errno != EINTR)) return bytes;
-  }
-}
 
 /// `scan existence`, a step each time it changed.
 std::string existenceData(const NodeLife& life, std::uint64_t last_scan) {
@@ -141,17 +92,8 @@ std::string existencePlotScript(const NodeLife& life, std::uint64_t last_scan) {
 }
 
 void drawExistence(const NodeLife& life, std::uint64_t last_scan, const fs::path& file) {
-  const ScriptFile script(existencePlotScript(life, last_scan));
-  const fs::path gnuplot = findGnuplot();
-  ChildProcess child({.program = gnuplot,
-                      .arguments = {script.path()},
-                      .output = ChildProcess::Stream::pipe,
-                      .own_group = false});
-  const std::string svg = readAll(child.outputFd());
-  const ExitStatus status = child.wait();
-  if (status.code != 0 || status.signal != 0 || svg.find("</svg>") == std::string::npos) {
-    throw FileError(file.string() + ": " + gnuplot.string() + " could not draw it");
-  }
+  const std::string svg = drawWithGnuplot(existencePlotScript(life, last_scan), "--plot");
+  if (svg.find("</svg>") == std::string::npos) throw FileError(file.string() + ": gnuplot could not draw it");
   replaceFile(file, svg);
 }
 

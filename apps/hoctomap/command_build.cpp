@@ -10,9 +10,9 @@
 #include "LogOptions.h"
 #include "MapRun.h"
 #include "MappingSetup.h"
+#include "SceneMaker.h"
 #include "StopSignal.h"
 #include "hoctomap/geometry/Errors.h"
-#include "hoctomap/io/ChildProcess.h"
 #include "hoctomap/io/MapDescription.h"
 #include "hoctomap/io/MapReader.h"
 #include "hoctomap/io/Sha256.h"
@@ -29,12 +29,6 @@ struct BuildOptions {
   std::string events;
   bool monolithic = false;
 };
-
-void writeScene(const std::filesystem::path& directory, const std::filesystem::path& file) {
-  if (runHelper({"scene", directory.string(), file.string()}) != 0) {
-    throw FileError(file.string() + ": the scene could not be written");
-  }
-}
 
 Settings settingsOf(const BuildOptions& options) {
   LogOptions log = options.log;
@@ -121,7 +115,7 @@ int build(const BuildOptions& options) {
     Progress progress(log, source.totalScans(), options.log.quiet);
     run.run(source, progress);
   }
-  directory.writeScene(writeScene);
+  directory.writeScene(makeScene);
 
   std::cout << describeMap(readManifest(directory.path())) << "\n"
             << run.summary().text() << "map        " << options.log.output << std::endl;

@@ -14,7 +14,8 @@ namespace {
 void ignoreWarning(png_structp, png_const_charp) {}
 
 // libpng reports errors by a jump back into this function: it must hold no object with a destructor.
-bool encode(std::FILE* file, png_uint_32 width, png_uint_32 height, const std::uint16_t* values) {
+template <class Value>
+bool encode(std::FILE* file, png_uint_32 width, png_uint_32 height, const Value* values) {
   png_structp png = png_create_write_struct(PNG_LIBPNG_VER_STRING, nullptr, nullptr, ignoreWarning);
   if (png == nullptr) return false;
   png_infop info = png_create_info_struct(png);
@@ -23,10 +24,10 @@ bool encode(std::FILE* file, png_uint_32 width, png_uint_32 height, const std::u
     return false;
   }
   png_init_io(png, file);
-  png_set_IHDR(png, info, width, height, 16, PNG_COLOR_TYPE_GRAY, PNG_INTERLACE_NONE,
+  png_set_IHDR(png, info, width, height, 8 * sizeof(Value), PNG_COLOR_TYPE_GRAY, PNG_INTERLACE_NONE,
                PNG_COMPRESSION_TYPE_DEFAULT, PNG_FILTER_TYPE_DEFAULT);
   png_write_info(png, info);
-  png_set_swap(png);  // PNG stores the high byte first
+  if constexpr (sizeof(Value) == 2) png_set_swap(png);  // PNG stores the high byte first
   for (png_uint_32 row = 0; row < height; ++row)
     png_write_row(png, reinterpret_cast<png_const_bytep>(values + static_cast<std::size_t>(row) * width));
   png_write_end(png, nullptr);
@@ -34,15 +35,25 @@ bool encode(std::FILE* file, png_uint_32 width, png_uint_32 height, const std::u
   return true;
 }
 
-}  // namespace
-
-void writeLabelPng(const std::filesystem::path& path, int width, int height,
-                     const std::vector<std::uint16_t>& values) {
+template <class Value>
+void writePng(const std::filesystem::path& path, int width, int height, const std::vector<Value>& values) {
   std::FILE* file = std::fopen(path.c_str(), "wb");
   const bool encoded = file != nullptr && encode(file, static_cast<png_uint_32>(width),
                                                  static_cast<png_uint_32>(height), values.data());
   const bool closed = file != nullptr && std::fclose(file) == 0;
   if (!encoded || !closed) throw FileError(path.string() + ": cannot write");
+}
+
+}  // namespace
+
+void writeLabelPng(const std::filesystem::path& path, int width, int height,
+                   const std::vector<std::uint16_t>& values) {
+  writePng(path, width, height, values);
+}
+
+void writeGreyPng(const std::filesystem::path& path, int width, int height,
+                  const std::vector<std::uint8_t>& values) {
+  writePng(path, width, height, values);
 }
 
 }  // namespace hoctomap

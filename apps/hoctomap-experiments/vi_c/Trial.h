@@ -1,0 +1,63 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "hoctomap/config/Settings.h"
+#include "hoctomap/simulation/Simulation.h"
+
+namespace hoctomap {
+
+enum class ViewMethod : std::uint8_t { recommended, paper, random, circle_4, circle_8 };
+inline constexpr int kViewMethods = 5;
+[[nodiscard]] std::string toString(ViewMethod method);
+
+/// How the map was after a view; the first entry is after the look around.
+struct TrialView {
+  std::optional<std::size_t> table;    ///< of `Trial::tables`, that was looked at
+  double travel = 0.0;                 ///< m, so far
+  double seconds = 0.0;                ///< of travel and measuring, so far
+  double coverage = 0.0;               ///< of all objects
+  std::vector<double> table_coverage;  ///< of the objects of each table
+};
+
+/// A candidate viewpoint of a step that was measured: what was expected, and what would have been found.
+struct GainCheck {
+  double gain = 0.0;
+  double cells = 0.0;  ///< in boxes that a view from there would show: free, or the surface itself
+};
+
+/// One exploration of one scene.
+struct Trial {
+  std::string scene;
+  ViewMethod method = ViewMethod::recommended;
+  std::uint64_t seed = 0;
+  std::vector<std::string> tables;
+  std::vector<TrialView> views;
+  std::vector<std::vector<GainCheck>> steps;             ///< of the views of boxes
+  std::vector<std::pair<double, double>> entropy_drops;  ///< gain of the view taken, bits that it took away
+  bool ended_by_itself = false;                          ///< every table is explored
+
+  /// After the k-th view of a table, or its last one before.
+  [[nodiscard]] double tableCoverage(std::size_t table, int view) const;
+  /// Views of a table until its coverage is `share`; nothing if it never is.
+  [[nodiscard]] std::optional<int> viewsUntil(std::size_t table, double share) const;
+  /// The first view after which the coverage of all objects is `share`.
+  [[nodiscard]] const TrialView* firstWith(double share) const;
+  /// Whether the last view of a table found less than 0.2 % of its surface.
+  [[nodiscard]] bool lastTripWasUseless() const;
+};
+
+struct TrialOptions {
+  int views = 8;             ///< of each table, for methods that do not end by themselves
+  bool check_gains = false;  ///< fill `Trial::steps`
+};
+
+/// Runs one. @param settings of the recommended method; the paper's changes gain, unknown space and utility.
+[[nodiscard]] Trial runTrial(const std::string& scene, const Simulation& simulation, const Settings& settings,
+                             ViewMethod method, std::uint64_t seed, const TrialOptions& options);
+
+}  // namespace hoctomap
