@@ -7,6 +7,7 @@
 #include "hoctomap/geometry/Errors.h"
 #include "hoctomap/io/ChildProcess.h"
 #include "hoctomap/io/MapDescription.h"
+#include "hoctomap/io/MapCheck.h"
 #include "hoctomap/io/MapReader.h"
 
 namespace hoctomap {

@@ -47,6 +47,7 @@ int main(int argc, char** argv) {
   hoctomap::addRenderCommand(app, action);
   hoctomap::addExplainCommand(app, action);
   hoctomap::addDiffCommand(app, action);
+  hoctomap::addVerifyCommand(app, action);
   hoctomap::addSimulateCommand(app, action);
   hoctomap::addExploreCommand(app, action);
 

@@ -67,6 +67,25 @@ TEST(Info, OfAMapShowsTheTree) {
   EXPECT_EQ(test::hoctomap({"info", folder / "a.rawlog", "--at-scan", "1"}).exit_code, 2);
 }
 
+TEST(Verify, NamesDamagedFilesAndExitsWithFour) {
+  const TemporaryFolder folder;
+  test::simulate("demo", folder / "a.rawlog");
+  test::build(folder / "a.rawlog", folder / "map", {"--snapshot-every", "2"});
+  const auto whole = test::hoctomap({"verify", folder / "map"});
+  EXPECT_EQ(whole.exit_code, 0) << whole.out << whole.err;
+  EXPECT_NE(whole.out.find("5 nodes"), std::string::npos) << whole.out;
+
+  const auto victim =
+      std::filesystem::directory_iterator(std::filesystem::path(folder / "map") / "nodes")->path();
+  std::filesystem::resize_file(victim, std::filesystem::file_size(victim) - 1);
+  const auto damaged = test::hoctomap({"verify", folder / "map"});
+  EXPECT_EQ(damaged.exit_code, 4);
+  EXPECT_NE(damaged.out.find("nodes/" + victim.filename().string()), std::string::npos) << damaged.out;
+  const auto json = test::hoctomap({"verify", folder / "map", "--json"});
+  EXPECT_EQ(json.exit_code, 4);
+  EXPECT_NE(json.out.find("\"whole\": false"), std::string::npos) << json.out;
+}
+
 TEST(Render, MakesAPictureWithoutADisplay) {
   const TemporaryFolder folder;
   test::simulate("demo", folder / "a.rawlog");

@@ -11,6 +11,7 @@
 
 #include "hoctomap/geometry/Errors.h"
 #include "hoctomap/io/MapDirectory.h"
+#include "hoctomap/io/MapCheck.h"
 #include "hoctomap/io/MapReader.h"
 #include "random_map.h"
 

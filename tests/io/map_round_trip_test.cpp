@@ -5,6 +5,7 @@
 #include <sstream>
 
 #include "hoctomap/io/MapDirectory.h"
+#include "hoctomap/io/MapCheck.h"
 #include "hoctomap/io/MapReader.h"
 #include "hoctomap/io/OctreeFile.h"
 #include "random_map.h"

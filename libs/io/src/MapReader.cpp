@@ -7,46 +7,14 @@
 
 #include "Disk.h"
 #include "ManifestTree.h"
+#include "MapFiles.h"
 #include "MapNames.h"
 #include "SeamsFile.h"
 #include "hoctomap/geometry/Errors.h"
 #include "hoctomap/io/OctreeFile.h"
-#include "hoctomap/io/Sha256.h"
 
 namespace hoctomap {
 namespace {
-
-constexpr std::uintmax_t kMaxManifestBytes = 1U << 30U;
-
-Manifest readManifestFile(const std::filesystem::path& file) {
-  std::error_code error;
-  const auto size = std::filesystem::file_size(file, error);
-  if (!error && size > kMaxManifestBytes) throw LimitError(file.string() + ": is larger than 1 GiB");
-  return parseManifest(readWholeFile(file), file.string());
-}
-
-void requireMap(const std::filesystem::path& directory) {
-  if (!std::filesystem::exists(directory))
-    throw MapError(directory.string() + ": there is no such directory");
-  if (std::filesystem::exists(directory / kManifestName)) return;
-  throw MapError(directory.string() + ": is no map directory: it has no " + kManifestName);
-}
-
-/// The bytes of a file of the map, as the manifest vouches for them.
-std::string readChecked(const std::filesystem::path& directory, const FileRecord& record, bool prefix) {
-  const auto file = directory / record.path;
-  if (!std::filesystem::exists(file)) throw MapError(file.string() + ": is missing");
-  std::string bytes = readWholeFile(file);
-  if (prefix && bytes.size() > record.bytes) bytes.resize(static_cast<std::size_t>(record.bytes));
-  if (bytes.size() != record.bytes) {
-    throw MapError(file.string() + ": has " + std::to_string(bytes.size()) + " bytes, the manifest says " +
-                   std::to_string(record.bytes));
-  }
-  if (sha256Hex(bytes) != record.sha256) {
-    throw MapError(file.string() + ": does not have the hash that the manifest says");
-  }
-  return bytes;
-}
 
 NodeMap readNodeMap(const std::filesystem::path& directory, const NodeRecord& node) {
   const std::string bytes = readChecked(directory, node.ot, false);
@@ -153,21 +121,6 @@ StoredMap readMap(const std::filesystem::path& directory, const MapReadOptions& 
     for (const NodeRecord& record : manifest.removed) removed.push_back(readRemoved(directory, record));
   }
   return {std::move(manifest), std::move(hierarchy), std::move(removed), std::move(seams)};
-}
-
-std::vector<Damage> findDamage(const std::filesystem::path& directory, const Manifest& manifest) {
-  std::vector<Damage> damage;
-  for (const FileRecord& file : manifest.files()) {
-    const bool grows = file.path == manifest.events.path || file.path == manifest.existence.path;
-    try {
-      const std::string bytes = readChecked(directory, file, grows);
-      if (file.path.ends_with(".ot")) checkOt(bytes, (directory / file.path).string());
-      if (file.path.ends_with(".bt")) checkBt(bytes, (directory / file.path).string());
-    } catch (const Error& error) {
-      damage.push_back({file.path, error.what()});
-    }
-  }
-  return damage;
 }
 
 }  // namespace hoctomap

@@ -33,14 +33,4 @@ struct StoredMap {
 /// @throws MapError naming the file; FileError if a file cannot be read.
 [[nodiscard]] StoredMap readMap(const std::filesystem::path& directory, const MapReadOptions& options = {});
 
-/// One thing that is wrong with a file of a map.
-struct Damage {
-  std::string path;  ///< relative to the map directory
-  std::string what;
-};
-
-/// Checks every file that the manifest names: size, hash, and the structure of the octrees. Empty: all whole.
-[[nodiscard]] std::vector<Damage> findDamage(const std::filesystem::path& directory,
-                                             const Manifest& manifest);
-
 }  // namespace hoctomap
