@@ -28,10 +28,10 @@ struct CommandOptions {
   bool quick = false;
 };
 
+/// A scene and a seed, for all methods.
 struct Job {
   std::string scene;
   const Simulation* simulation;
-  ViewMethod method;
   std::uint64_t seed;
 };
 
@@ -55,25 +55,26 @@ int viC(CommandOptions options) {
     if (!simulations.back().robot) throw ConfigError(file + ": needs a section [robot]");
     const std::string name = std::filesystem::path(file).stem().string();
     for (int seed = 1; seed <= options.seeds; ++seed)
-      for (int m = 0; m < kViewMethods; ++m)
-        jobs.push_back(
-            {name, &simulations.back(), static_cast<ViewMethod>(m), static_cast<std::uint64_t>(seed)});
+      jobs.push_back({name, &simulations.back(), static_cast<std::uint64_t>(seed)});
   }
 
-  std::vector<Trial> trials(jobs.size());
+  std::vector<Trial> trials(jobs.size() * kViewMethods);
   std::mutex talking;
   std::size_t done = 0;
   tbb::parallel_for(std::size_t{0}, jobs.size(), [&](std::size_t i) {
     // What runs in parallel inside a trial must not begin another one.
     tbb::this_task_arena::isolate([&] {
-      const Job& job = jobs[i];
-      const bool chooses = job.method == ViewMethod::recommended || job.method == ViewMethod::paper;
-      trials[i] =
-          runTrial(job.scene, *job.simulation, settings, job.method, job.seed, {options.views, chooses});
-      const std::scoped_lock lock(talking);
-      std::cerr << ++done << "/" << jobs.size() << " " << job.scene << ", " << toString(job.method)
-                << ", seed " << job.seed << ": " << 100.0 * trials[i].views.back().coverage << " % after "
-                << trials[i].views.size() - 1 << " views" << std::endl;
+      const TrialScene scene(jobs[i].scene, *jobs[i].simulation, jobs[i].seed);
+      for (int m = 0; m < kViewMethods; ++m) {
+        const auto method = static_cast<ViewMethod>(m);
+        const bool chooses = method == ViewMethod::recommended || method == ViewMethod::paper;
+        const Trial trial = runTrial(scene, settings, method, {options.views, chooses});
+        trials[i * kViewMethods + static_cast<std::size_t>(m)] = trial;
+        const std::scoped_lock lock(talking);
+        std::cerr << ++done << "/" << trials.size() << " " << scene.name << ", " << toString(method)
+                  << ", seed " << scene.seed << ": " << 100.0 * trial.views.back().coverage << " % after "
+                  << trial.views.size() - 1 << " views" << std::endl;
+      }
     });
   });
 
