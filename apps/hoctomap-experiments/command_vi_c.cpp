@@ -1,11 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include <tbb/parallel_for.h>
-#include <tbb/task_arena.h>
-
 #include <filesystem>
 #include <iostream>
 #include <memory>
-#include <mutex>
 
 #include "Command.h"
 #include "hoctomap/config/SceneConfig.h"
@@ -24,14 +20,15 @@ struct CommandOptions {
   std::vector<std::string> assignments;        ///< of the settings
   std::vector<std::string> scene_assignments;  ///< of all scenes
   int seeds = 20;
+  int first_seed = 1;
   int views = 8;
   bool quick = false;
 };
 
+/// A scene and a seed, for all methods.
 struct Job {
   std::string scene;
   const Simulation* simulation;
-  ViewMethod method;
   std::uint64_t seed;
 };
 
@@ -54,28 +51,23 @@ int viC(CommandOptions options) {
     simulations.push_back(loadScene(file, options.scene_assignments));
     if (!simulations.back().robot) throw ConfigError(file + ": needs a section [robot]");
     const std::string name = std::filesystem::path(file).stem().string();
-    for (int seed = 1; seed <= options.seeds; ++seed)
-      for (int m = 0; m < kViewMethods; ++m)
-        jobs.push_back(
-            {name, &simulations.back(), static_cast<ViewMethod>(m), static_cast<std::uint64_t>(seed)});
+    for (int seed = options.first_seed; seed < options.first_seed + options.seeds; ++seed)
+      jobs.push_back({name, &simulations.back(), static_cast<std::uint64_t>(seed)});
   }
 
-  std::vector<Trial> trials(jobs.size());
-  std::mutex talking;
-  std::size_t done = 0;
-  tbb::parallel_for(std::size_t{0}, jobs.size(), [&](std::size_t i) {
-    // What runs in parallel inside a trial must not begin another one.
-    tbb::this_task_arena::isolate([&] {
-      const Job& job = jobs[i];
-      const bool chooses = job.method == ViewMethod::recommended || job.method == ViewMethod::paper;
-      trials[i] =
-          runTrial(job.scene, *job.simulation, settings, job.method, job.seed, {options.views, chooses});
-      const std::scoped_lock lock(talking);
-      std::cerr << ++done << "/" << jobs.size() << " " << job.scene << ", " << toString(job.method)
-                << ", seed " << job.seed << ": " << 100.0 * trials[i].views.back().coverage << " % after "
-                << trials[i].views.size() - 1 << " views" << std::endl;
-    });
-  });
+  std::vector<Trial> trials;
+  for (const Job& job : jobs) {
+    const TrialScene scene(job.scene, *job.simulation, job.seed);
+    for (int m = 0; m < kViewMethods; ++m) {
+      const auto method = static_cast<ViewMethod>(m);
+      const bool chooses = method == ViewMethod::recommended || method == ViewMethod::paper;
+      trials.push_back(runTrial(scene, settings, method, {options.views, chooses}));
+      std::cerr << trials.size() << "/" << jobs.size() * kViewMethods << " " << scene.name << ", "
+                << toString(method) << ", seed " << scene.seed << ": "
+                << 100.0 * trials.back().views.back().coverage << " % after "
+                << trials.back().views.size() - 1 << " views" << std::endl;
+    }
+  }
 
   std::filesystem::create_directories(options.output);
   const std::filesystem::path folder(options.output);
@@ -103,6 +95,7 @@ void addViCCommand(CLI::App& app, Action& action) {
   command->add_option("--seeds", options->seeds, "seeds of each scene")
       ->type_name("N")
       ->check(CLI::PositiveNumber);
+  command->add_option("--first-seed", options->first_seed, "the first of them (default 1)")->type_name("N");
   command
       ->add_option("--views", options->views, "views of each table, of methods that do not end by themselves")
       ->type_name("N")

@@ -9,7 +9,8 @@ namespace {
 TEST(Help, NamesEveryCommand) {
   const auto outcome = test::hoctomap({"--help"});
   EXPECT_EQ(outcome.exit_code, 0);
-  for (const char* command : {"build", "segment", "info", "render", "explain", "diff", "simulate"}) {
+  for (const char* command :
+       {"build", "segment", "info", "render", "explain", "diff", "simulate", "explore"}) {
     EXPECT_NE(outcome.out.find(command), std::string::npos) << command;
   }
   EXPECT_TRUE(outcome.err.empty());
@@ -33,7 +34,8 @@ TEST(Help, OfACommandNamesItsOptionsAndAnExample) {
       {"render", {"DIR", "-o", "--size", "--view", "--at-scan"}},
       {"explain", {"DIR", "NODE", "--plot", "--json", "--at-scan"}},
       {"diff", {"A", "B", "--transform", "--json", "-o", "--at-scan", "--at-scan-a", "--at-scan-b"}},
-      {"simulate", {"-c", "-o", "--set"}}};
+      {"simulate", {"-c", "-o", "--set"}},
+      {"explore", {"-c", "-o", "--config", "--set", "--seed", "--overwrite", "--threads", "-q"}}};
   for (const auto& [command, names] : options) {
     const auto outcome = test::hoctomap({command, "--help"});
     EXPECT_EQ(outcome.exit_code, 0);

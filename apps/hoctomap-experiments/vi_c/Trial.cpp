@@ -7,7 +7,6 @@
 
 #include "MappingSetup.h"
 #include "hoctomap/simulation/SimulatedRobot.h"
-#include "hoctomap/simulation/SurfaceCoverage.h"
 #include "vi_c/Baselines.h"
 #include "vi_c/GainTruth.h"
 #include "vi_c/JitteredScene.h"
@@ -53,20 +52,19 @@ Simulation jitteredSimulation(Simulation simulation, std::uint64_t seed) {
 
 class Run {
  public:
-  Run(const std::string& scene, const Simulation& simulation, const Settings& settings, ViewMethod method,
-      std::uint64_t seed, const TrialOptions& options)
+  Run(const TrialScene& scene, const Settings& settings, ViewMethod method, const TrialOptions& options)
       : settings_(settings),
         options_(options),
-        simulation_(jitteredSimulation(simulation, seed)),
-        config_(configOf(settings, method, seed)),
+        simulation_(scene.simulation),
+        coverage_(scene.coverage),
+        config_(configOf(settings, method, scene.seed)),
         robot_(simulation_, RangeLimits{settings.sensor.min_range}),
         truth_(simulation_, config_),
         source_(robot_, truth_),
-        coverage_(simulation_.scene, *simulation_.robot),
         mapper_(settings.mappingConfig(), settings.labels, makeStrategies(settings)) {
-    trial_.scene = scene;
+    trial_.scene = scene.name;
     trial_.method = method;
-    trial_.seed = seed;
+    trial_.seed = scene.seed;
     for (const SolidId id : simulation_.scene.ids()) {
       if (simulation_.scene.solid(id).label != SolidLabel::table) continue;
       tables_.push_back(id);
@@ -156,12 +154,12 @@ class Run {
 
   const Settings& settings_;
   TrialOptions options_;
-  Simulation simulation_;
+  const Simulation& simulation_;
+  const SurfaceCoverage& coverage_;
   ExplorationConfig config_;
   SimulatedRobot robot_;
   GainTruth truth_;
   HeardRobot source_;
-  SurfaceCoverage coverage_;
   HierarchyMapper mapper_;
   std::vector<SolidId> tables_;
   Trial trial_;
@@ -226,9 +224,15 @@ bool Trial::lastTripWasUseless() const {
   return false;
 }
 
-Trial runTrial(const std::string& scene, const Simulation& simulation, const Settings& settings,
-               ViewMethod method, std::uint64_t seed, const TrialOptions& options) {
-  return Run(scene, simulation, settings, method, seed, options).run();
+TrialScene::TrialScene(std::string scene_name, const Simulation& from, std::uint64_t with_seed)
+    : name(std::move(scene_name)),
+      seed(with_seed),
+      simulation(jitteredSimulation(from, with_seed)),
+      coverage(simulation.scene, simulation.robot.value()) {}
+
+Trial runTrial(const TrialScene& scene, const Settings& settings, ViewMethod method,
+               const TrialOptions& options) {
+  return Run(scene, settings, method, options).run();
 }
 
 }  // namespace hoctomap

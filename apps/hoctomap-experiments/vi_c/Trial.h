@@ -8,6 +8,7 @@
 
 #include "hoctomap/config/Settings.h"
 #include "hoctomap/simulation/Simulation.h"
+#include "hoctomap/simulation/SurfaceCoverage.h"
 
 namespace hoctomap {
 
@@ -56,8 +57,18 @@ struct TrialOptions {
   bool check_gains = false;  ///< fill `Trial::steps`
 };
 
+/// A scene with its objects as a seed has put them, and what can be seen of them: the same for all methods.
+struct TrialScene {
+  TrialScene(std::string scene_name, const Simulation& from, std::uint64_t with_seed);
+
+  std::string name;
+  std::uint64_t seed;
+  Simulation simulation;
+  SurfaceCoverage coverage;
+};
+
 /// Runs one. @param settings of the recommended method; the paper's changes gain, unknown space and utility.
-[[nodiscard]] Trial runTrial(const std::string& scene, const Simulation& simulation, const Settings& settings,
-                             ViewMethod method, std::uint64_t seed, const TrialOptions& options);
+[[nodiscard]] Trial runTrial(const TrialScene& scene, const Settings& settings, ViewMethod method,
+                             const TrialOptions& options);
 
 }  // namespace hoctomap

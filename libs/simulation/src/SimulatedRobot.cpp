@@ -114,9 +114,11 @@ bool SimulatedRobot::moveTo(const Viewpoint& goal, std::span<const Eigen::Vector
   way.insert(way.end(), path.begin(), path.end());
   way.emplace_back(goal.world_T_base.x(), goal.world_T_base.y());
   const CounterRng draws = drawsOf(seed_, drives_);
-  const bool fails_here = draws.uniform(Draw::fails, 0) < config_.move_failure;
+  const double length = lengthOf(way);
+  // A turn on the spot has no way to fail on.
+  const bool fails_here = length > 0.0 && draws.uniform(Draw::fails, 0) < config_.move_failure;
   const double ends_after =
-      fails_here ? draws.uniform(Draw::where, 0) * lengthOf(way) : std::numeric_limits<double>::infinity();
+      fails_here ? draws.uniform(Draw::where, 0) * length : std::numeric_limits<double>::infinity();
   const Drive done = drive(plan_, way, believed_.world_T_base.yaw(), ends_after);
   seconds_ += done.length / config_.model.speed;
   if (!done.arrived || fails_here) {
