@@ -40,7 +40,8 @@ void RangeBuffer::splatBehind(const RangeBuffer& front, const RangeView::Pixel& 
                               float size) {
   const float nearest = center.range - 0.5F * size;
   forPixels(center, focal, size, [&](int x, int y, float& range) {
-    if (nearest >= front.at(x, y)) range = std::min(range, center.range);
+    const float before = front.at(x, y);
+    if (before == kEmpty || nearest >= before) range = std::min(range, center.range);
   });
 }
 

@@ -23,7 +23,7 @@ class RangeBuffer {
 
   /// Renders a cube of edge `size` metres as the square it covers about its centre.
   void splat(const RangeView::Pixel& center, float focal, float size);
-  /// The same, but only where the centre lies half an edge or more behind what `front` holds.
+  /// The same, but only where the centre lies half an edge or more behind what `front` holds, if anything.
   void splatBehind(const RangeBuffer& front, const RangeView::Pixel& center, float focal, float size);
 
   /// The nearer of both, where `other` lies within this one.

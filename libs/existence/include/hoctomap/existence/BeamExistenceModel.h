@@ -18,7 +18,7 @@ struct BeamExistenceConfig {
   double pose_depth = 0.01;   ///< m, the same along the beam
   double window = 0.003;      ///< m, half width of the neighbourhood a beam is compared with
   double tolerance = 0.004;   ///< m, added to 0.87 voxels and 3 sigma of the range
-  int min_beams = 40;         ///< present + absent beams below which a scan says nothing
+  int min_beams = 10;         ///< present + absent beams below which a scan says nothing
   double min_visible = 0.10;  ///< share of the node's beams that must be informative
   double min_in_view = 0.35;  ///< share of the node that must be inside the image
   int max_beams = 400;        ///< beams used a node (strided)
