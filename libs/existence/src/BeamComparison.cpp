@@ -67,7 +67,8 @@ struct Pixel {
 };
 
 /// Pixels that have the node all around them, as far as `window` metres. At the silhouette mixed pixels and
-/// halos say nothing; but what is all edge, because it is small or thin, is judged by narrower neighbourhoods.
+/// halos say nothing; but what is all edge, because it is small or thin, is judged by narrower
+/// neighbourhoods.
 std::vector<Pixel> innerPixels(const RangeBuffer& node, float focal, double window) {
   const EmptyCount empty(node);
   std::vector<Pixel> pixels;
@@ -90,14 +91,14 @@ std::vector<Pixel> innerPixels(const RangeBuffer& node, float focal, double wind
 }  // namespace
 
 BeamComparison::BeamComparison(const BeamExistenceConfig& config, const RangeView& view,
-                               const RangeBuffer& node, const RangeBuffer* support, double resolution)
+                               const RangeBuffer& node, const Support* support, double resolution)
     : config_(config), view_(view), support_(support) {
   collectBeams(node, resolution);
 }
 
 void BeamComparison::collectBeams(const RangeBuffer& node, double resolution) {
-  const auto pixels = strided(innerPixels(node, view_.focal(), config_.window),
-                              static_cast<std::size_t>(config_.max_beams));
+  const auto pixels =
+      strided(innerPixels(node, view_.focal(), config_.window), static_cast<std::size_t>(config_.max_beams));
   for (const auto& [u, v, k] : pixels) {
     const float expected = node.at(u, v);
     float nearest = expected;
@@ -109,7 +110,7 @@ void BeamComparison::collectBeams(const RangeBuffer& node, double resolution) {
       }
     }
     const double tolerance = config_.rangeTolerance(resolution, expected);
-    const float behind = support_ == nullptr ? RangeBuffer::kEmpty : support_->at(u, v);
+    const float behind = support_ == nullptr ? RangeBuffer::kEmpty : support_->behind.at(u, v);
     const bool clear = behind - farthest >= 2.0 * tolerance + config_.pose_depth;
     beams_.push_back({u, v, expected, nearest, farthest, static_cast<float>(tolerance), clear});
   }
@@ -120,7 +121,8 @@ void BeamComparison::measure(const std::vector<Beam>& beams, int du, int dv, std
   for (const Beam& beam : beams) {
     const int u = beam.u + du;
     const int v = beam.v + dv;
-    ends.push_back({view_.measured(u, v), support_ == nullptr ? RangeBuffer::kEmpty : support_->at(u, v)});
+    ends.push_back(
+        {view_.measured(u, v), support_ == nullptr ? RangeBuffer::kEmpty : support_->exact.at(u, v)});
   }
 }
 
@@ -184,8 +186,7 @@ BeamComparison::Offset BeamComparison::bestOffset() const {
     const double share = static_cast<double>(count(beams, ends, offset.depth).present_at_most()) /
                          static_cast<double>(beams.size());
     const double depth = config_.pose_depth > 0.0 ? offset.depth / config_.pose_depth : 0.0;
-    offset.doubt =
-        kOffsetDoubt * ((du * du + dv * dv) / std::max(1.0, reach * reach) + depth * depth);
+    offset.doubt = kOffsetDoubt * ((du * du + dv * dv) / std::max(1.0, reach * reach) + depth * depth);
     if (share - offset.doubt > best_score) {
       best_score = share - offset.doubt;
       best = offset;
@@ -224,6 +225,7 @@ Evidence BeamComparison::evidence(double share_in_view, const ExistenceParameter
     return n >= config_.min_beams && n >= config_.min_visible * all && share_in_view >= config_.min_in_view;
   };
   double n = counts.present + counts.absent;
+  double share_present = counts.present / n;
   e.informative = isEnough(n) && n >= 0.3 * (n + counts.unclear_present + counts.unclear_absent);
   // Where the background is near, beams that end on the node say little, but those that pass it do.
   if (!e.informative && isEnough(counts.reached()) &&
@@ -232,10 +234,10 @@ Evidence BeamComparison::evidence(double share_in_view, const ExistenceParameter
     e.present = counts.present_at_most();
     e.absent = counts.absent + counts.unclear_absent;
     n = counts.reached();
+    share_present = e.present / n - offset.doubt;
   }
   if (!e.informative) return e;
   // From p_absent to p_present by the share of beams that end on the node, the less the fewer they are.
-  const double share_present = e.present / n - offset.doubt;
   const double weight =
       n / (n + kHalfWeight) * std::min(1.0, n / all / 0.3) * std::min(1.0, share_in_view / 0.7);
   e.p_measurement = std::clamp(probability(8.0 * (share_present - 0.5) * weight + logOdds(parameters.prior)),

@@ -10,13 +10,19 @@
 
 namespace hoctomap {
 
+/// What is mapped behind nodes, rendered.
+struct Support {
+  RangeBuffer behind;  ///< clearly behind their surfaces
+  RangeBuffer exact;   ///< behind and beside them, as far as voxels are small enough to say where a beam ends
+};
+
 /// Compares where beams should end on one node with where they did end.
 class BeamComparison {
  public:
   /// @param node     the node's voxels, rendered
-  /// @param support  what is mapped behind and beside it; null: nothing. Must outlive this object.
+  /// @param support  null: nothing. Must outlive this object.
   BeamComparison(const BeamExistenceConfig& config, const RangeView& view, const RangeBuffer& node,
-                 const RangeBuffer* support, double resolution);
+                 const Support* support, double resolution);
 
   [[nodiscard]] Evidence evidence(double share_in_view, const ExistenceParameters& parameters) const;
 
@@ -52,7 +58,7 @@ class BeamComparison {
   /// The end of a beam.
   struct End {
     float measured;    ///< 0: no return
-    float background;  ///< range of what is mapped there behind the nodes
+    float background;  ///< range of what is mapped there anyway
   };
 
   void collectBeams(const RangeBuffer& node, double resolution);
@@ -67,7 +73,7 @@ class BeamComparison {
 
   const BeamExistenceConfig& config_;
   const RangeView& view_;
-  const RangeBuffer* support_;
+  const Support* support_;
   std::vector<Beam> beams_;
 };
 

@@ -69,12 +69,12 @@ std::optional<Silhouette> render(const MapHierarchy& hierarchy, NodeId id, const
   return s;
 }
 
-/// What stands behind the nodes in question: all nodes that have a child, and the root, rendered as far as
-/// some silhouette lies before it. Their voxels are coarse: one that is not clearly behind a node's surface
-/// says nothing of what a beam would meet if the node was gone.
-RangeBuffer renderSupport(const MapHierarchy& hierarchy, const RangeView& view,
-                          const std::vector<NodeId>& nodes,
-                          const std::vector<std::optional<Silhouette>>& silhouettes) {
+/// What stands behind the nodes in question: all nodes that have a child, and the root. Their voxels are
+/// coarse: one that is not clearly behind a node's surface says nothing of what a beam would meet if the node
+/// was gone.
+Support renderSupport(const MapHierarchy& hierarchy, const RangeView& view, const std::vector<NodeId>& nodes,
+                      const std::vector<std::optional<Silhouette>>& silhouettes,
+                      const BeamExistenceConfig& config) {
   Eigen::AlignedBox2i field;
   double range = 0.0;
   for (const auto& s : silhouettes) {
@@ -83,8 +83,8 @@ RangeBuffer renderSupport(const MapHierarchy& hierarchy, const RangeView& view,
     field.extend(Eigen::Vector2i(s->nearest.u1(), s->nearest.v1()));
     range = std::max(range, s->background_range);
   }
-  RangeBuffer support(field.min().x(), field.min().y(), field.max().x(), field.max().y());
-  RangeBuffer front = support;
+  RangeBuffer front(field.min().x(), field.min().y(), field.max().x(), field.max().y());
+  Support support{front, front};
   for (std::size_t i = 0; i < nodes.size(); ++i) {
     if (silhouettes[i] && hierarchy.node(nodes[i]).children().empty()) front.overlay(silhouettes[i]->nearest);
   }
@@ -95,10 +95,14 @@ RangeBuffer renderSupport(const MapHierarchy& hierarchy, const RangeView& view,
     if (id != kRootId && node.children().empty()) continue;
     if (!view.mayShow(hierarchy.box(id).padded(node.map().resolution() + pixels), range)) continue;
     const Eigen::Isometry3f world_T_node = toIsometry(hierarchy.world_T_node(id)).cast<float>();
+    const auto edge = static_cast<float>(node.map().resolution());
+    // Half a diagonal: by as much a coarse voxel errs.
+    const bool is_exact = 0.87 * node.map().resolution() <= config.pose_depth + config.tolerance;
     for (const auto& voxel : node.map().occupiedVoxels()) {
       const auto pixel = view.project(world_T_node * voxel);
-      if (pixel)
-        support.splatBehind(front, *pixel, view.focal(), static_cast<float>(node.map().resolution()));
+      if (!pixel) continue;
+      support.behind.splatBehind(front, *pixel, view.focal(), edge, false);
+      if (is_exact) support.exact.splatBehind(front, *pixel, view.focal(), edge, true);
     }
   }
   return support;
@@ -127,7 +131,7 @@ std::vector<Evidence> BeamExistenceModel::evidence(const MapHierarchy& hierarchy
                     [&](std::size_t i) { silhouettes[i] = render(hierarchy, nodes[i], view, config_); });
   if (std::none_of(silhouettes.begin(), silhouettes.end(), [](const auto& s) { return s.has_value(); }))
     return result;
-  const RangeBuffer support = renderSupport(hierarchy, view, nodes, silhouettes);
+  const Support support = renderSupport(hierarchy, view, nodes, silhouettes, config_);
   tbb::parallel_for(std::size_t{0}, nodes.size(), [&](std::size_t i) {
     const auto& silhouette = silhouettes[i];
     if (!silhouette) return;
