@@ -72,7 +72,8 @@ std::optional<Silhouette> render(const MapHierarchy& hierarchy, NodeId id, const
 /// What stands behind the nodes in question: all nodes that have a child, and the root. Their voxels are
 /// coarse: one that is not clearly behind a node's surface says nothing of what a beam would meet if the node
 /// was gone.
-Support renderSupport(const MapHierarchy& hierarchy, const RangeView& view, const std::vector<NodeId>& nodes,
+Support renderSupport(const MapHierarchy& hierarchy, const RangeView& view,
+                      const std::vector<NodeInQuestion>& nodes,
                       const std::vector<std::optional<Silhouette>>& silhouettes,
                       const BeamExistenceConfig& config) {
   Eigen::AlignedBox2i field;
@@ -86,7 +87,8 @@ Support renderSupport(const MapHierarchy& hierarchy, const RangeView& view, cons
   RangeBuffer front(field.min().x(), field.min().y(), field.max().x(), field.max().y());
   Support support{front, front};
   for (std::size_t i = 0; i < nodes.size(); ++i) {
-    if (silhouettes[i] && hierarchy.node(nodes[i]).children().empty()) front.overlay(silhouettes[i]->nearest);
+    if (silhouettes[i] && hierarchy.node(nodes[i].id).children().empty())
+      front.overlay(silhouettes[i]->nearest);
   }
   const double pixels = 2.0 * range / view.focal();  // that a voxel's square may stick out
   const Eigen::AlignedBox3d bounds = view.worldBounds(range);
@@ -119,27 +121,27 @@ Eigen::AlignedBox3d BeamExistenceModel::reach(const Measurement& measurement) co
 
 std::vector<Evidence> BeamExistenceModel::evidence(const MapHierarchy& hierarchy,
                                                    const Measurement& measurement,
-                                                   const std::vector<NodeId>& nodes,
-                                                   const std::vector<ExistenceParameters>& parameters) const {
+                                                   const std::vector<NodeInQuestion>& nodes) const {
   std::vector<Evidence> result(nodes.size());
-  for (std::size_t i = 0; i < nodes.size(); ++i) result[i].p_measurement = parameters[i].prior;
+  for (std::size_t i = 0; i < nodes.size(); ++i) result[i].p_measurement = nodes[i].parameters.prior;
   const RangeView view(measurement);
   if (nodes.empty() || view.width() == 0) return result;
 
   std::vector<std::optional<Silhouette>> silhouettes(nodes.size());
   tbb::parallel_for(std::size_t{0}, nodes.size(),
-                    [&](std::size_t i) { silhouettes[i] = render(hierarchy, nodes[i], view, config_); });
+                    [&](std::size_t i) { silhouettes[i] = render(hierarchy, nodes[i].id, view, config_); });
   if (std::none_of(silhouettes.begin(), silhouettes.end(), [](const auto& s) { return s.has_value(); }))
     return result;
   const Support support = renderSupport(hierarchy, view, nodes, silhouettes, config_);
+  const BeamExistenceConfig same_view = config_.forSameView();
   tbb::parallel_for(std::size_t{0}, nodes.size(), [&](std::size_t i) {
     const auto& silhouette = silhouettes[i];
     if (!silhouette) return;
-    const MapNode& node = hierarchy.node(nodes[i]);
+    const MapNode& node = hierarchy.node(nodes[i].id);
     // A supporting node must not be its own background.
-    const BeamComparison comparison(config_, view, silhouette->nearest,
+    const BeamComparison comparison(nodes[i].same_view ? same_view : config_, view, silhouette->nearest,
                                     node.children().empty() ? &support : nullptr, node.map().resolution());
-    result[i] = comparison.evidence(silhouette->share_in_view, parameters[i]);
+    result[i] = comparison.evidence(silhouette->share_in_view, nodes[i].parameters);
   });
   return result;
 }

@@ -24,6 +24,15 @@ struct BeamExistenceConfig {
   int max_beams = 400;        ///< beams used a node (strided)
   RangeNoise noise;
 
+  /// The same for a node that was mapped from where the sensor still is: a third of the errors is left, for
+  /// what the noise of the range does to edges.
+  [[nodiscard]] BeamExistenceConfig forSameView() const {
+    BeamExistenceConfig config = *this;
+    config.pose_shift *= 0.3;
+    config.pose_depth *= 0.3;
+    return config;
+  }
+
   /// Metres by which the end of a beam may miss a node's voxels at this range and still be on them.
   [[nodiscard]] double rangeTolerance(double resolution, double range) const {
     return tolerance + 0.87 * resolution + 3.0 * noise.sigma(range);
@@ -36,9 +45,8 @@ class BeamExistenceModel : public InverseExistenceModel {
  public:
   explicit BeamExistenceModel(const BeamExistenceConfig& config) : config_(config) {}
 
-  [[nodiscard]] std::vector<Evidence> evidence(
-      const MapHierarchy& hierarchy, const Measurement& measurement, const std::vector<NodeId>& nodes,
-      const std::vector<ExistenceParameters>& parameters) const override;
+  [[nodiscard]] std::vector<Evidence> evidence(const MapHierarchy& hierarchy, const Measurement& measurement,
+                                               const std::vector<NodeInQuestion>& nodes) const override;
 
   /// As far as the scan's farthest return: what lies beyond is hidden at best.
   [[nodiscard]] Eigen::AlignedBox3d reach(const Measurement& measurement) const override;

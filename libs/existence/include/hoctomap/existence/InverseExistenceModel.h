@@ -26,16 +26,25 @@ struct Evidence {
   [[nodiscard]] bool contradicts() const { return informative && 2 * present < present + absent; }
 };
 
+/// A node that a measurement is asked about.
+struct NodeInQuestion {
+  NodeId id;
+  ExistenceParameters parameters;
+  /// All that is in its map was measured from the place where the sensor is now: no error of poses lies
+  /// between.
+  bool same_view = false;
+};
+
 /// P(n | z_t), specific to the sensor and the segmentation (Section III-D).
 class InverseExistenceModel {
  public:
   virtual ~InverseExistenceModel() = default;
 
   /// Evidence for each of `nodes`, in their order, from the whole measurement, taken before anything of it is
-  /// integrated. `parameters[i]` belong to `nodes[i]`.
-  [[nodiscard]] virtual std::vector<Evidence> evidence(
-      const MapHierarchy& hierarchy, const Measurement& measurement, const std::vector<NodeId>& nodes,
-      const std::vector<ExistenceParameters>& parameters) const = 0;
+  /// integrated.
+  [[nodiscard]] virtual std::vector<Evidence> evidence(const MapHierarchy& hierarchy,
+                                                       const Measurement& measurement,
+                                                       const std::vector<NodeInQuestion>& nodes) const = 0;
 
   /// Box in the world that a node must meet to get any evidence from this measurement: so that the work grows
   /// with the nodes in view and not with all nodes.
