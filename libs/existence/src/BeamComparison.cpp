@@ -208,6 +208,14 @@ BeamComparison::Offset BeamComparison::bestOffset() const {
   return best;
 }
 
+Eigen::Vector3d BeamComparison::shiftOf(const Offset& offset) const {
+  const Beam& beam = beams_[beams_.size() / 2];  // all are about as far
+  const auto at = [](int x) { return static_cast<float>(x); };
+  return (view_.worldPoint({at(beam.u + offset.du), at(beam.v + offset.dv), beam.expected + offset.depth}) -
+          view_.worldPoint({at(beam.u), at(beam.v), beam.expected}))
+      .cast<double>();
+}
+
 Evidence BeamComparison::evidence(double share_in_view, const ExistenceParameters& parameters) const {
   Evidence e;
   e.p_measurement = parameters.prior;
@@ -219,6 +227,7 @@ Evidence BeamComparison::evidence(double share_in_view, const ExistenceParameter
   e.present = counts.present;
   e.absent = counts.absent;
   e.occluded = counts.occluded;
+  e.shift = shiftOf(offset);
 
   const auto all = static_cast<double>(beams_.size());
   const auto isEnough = [&](double n) {

@@ -70,6 +70,8 @@ class BeamComparison {
   [[nodiscard]] float depthOffset(const std::vector<Beam>& beams, const std::vector<End>& ends,
                                   std::vector<float>& scratch) const;
   [[nodiscard]] Offset bestOffset() const;
+  /// What an offset is in the world, m.
+  [[nodiscard]] Eigen::Vector3d shiftOf(const Offset& offset) const;
 
   const BeamExistenceConfig& config_;
   const RangeView& view_;

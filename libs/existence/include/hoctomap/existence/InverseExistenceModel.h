@@ -17,6 +17,9 @@ struct Evidence {
   std::uint32_t occluded = 0;  ///< they end before it
   bool informative = false;    ///< enough beams to say anything; otherwise P(n | z_t) = P(n)
   double p_measurement = 0.5;  ///< P(n | z_t)
+  /// m in the world: how far off the node the beams are that fit it best. An error of the scan's pose shifts
+  /// all that it shows; what is shifted otherwise has moved.
+  Eigen::Vector3d shift = Eigen::Vector3d::Zero();
 
   /// Share of the beams that reach the node's place that end on the node; 0 if none do.
   [[nodiscard]] double presentShare() const {
