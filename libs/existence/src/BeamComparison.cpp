@@ -153,22 +153,22 @@ BeamComparison::Counts BeamComparison::count(const std::vector<Beam>& beams, con
   return counts;
 }
 
-float BeamComparison::depthOffset(const std::vector<Beam>& beams, const std::vector<End>& ends,
+float BeamComparison::depthOffset(const std::vector<Beam>& beams, const std::vector<End>& ends, float about,
                                   std::vector<float>& scratch) const {
   scratch.clear();
   const auto pose_depth = static_cast<float>(config_.pose_depth);
   for (std::size_t i = 0; i < beams.size(); ++i) {
     const float difference = ends[i].measured - beams[i].expected;
-    if (ends[i].measured > 0.0F && std::abs(difference) < pose_depth + beams[i].tolerance)
+    if (ends[i].measured > 0.0F && std::abs(difference - about) < pose_depth + beams[i].tolerance)
       scratch.push_back(difference);
   }
-  if (scratch.empty()) return 0.0F;
+  if (scratch.empty()) return about;
   const auto middle = scratch.begin() + static_cast<std::ptrdiff_t>(scratch.size() / 2);
   std::nth_element(scratch.begin(), middle, scratch.end());
-  return std::clamp(*middle, -pose_depth, pose_depth);
+  return std::clamp(*middle, about - pose_depth, about + pose_depth);
 }
 
-BeamComparison::Offset BeamComparison::bestOffset() const {
+BeamComparison::Offset BeamComparison::bestOffset(const Offset& about) const {
   const std::vector<Beam> beams = strided(beams_, kSearchBeams);
   float mean_range = 0.0F;
   for (const Beam& beam : beams) mean_range += beam.expected;
@@ -179,13 +179,13 @@ BeamComparison::Offset BeamComparison::bestOffset() const {
   double best_score = -1e9;
   std::vector<End> ends;
   std::vector<float> scratch;
-  const auto consider = [&](int du, int dv) {
+  const auto consider = [&](int du, int dv) {  // beside `about`
     if (du * du + dv * dv > reach * reach) return;
-    measure(beams, du, dv, ends);
-    Offset offset{du, dv, depthOffset(beams, ends, scratch)};
+    measure(beams, about.du + du, about.dv + dv, ends);
+    Offset offset{about.du + du, about.dv + dv, depthOffset(beams, ends, about.depth, scratch)};
     const double share = static_cast<double>(count(beams, ends, offset.depth).present_at_most()) /
                          static_cast<double>(beams.size());
-    const double depth = config_.pose_depth > 0.0 ? offset.depth / config_.pose_depth : 0.0;
+    const double depth = config_.pose_depth > 0.0 ? (offset.depth - about.depth) / config_.pose_depth : 0.0;
     offset.doubt = kOffsetDoubt * ((du * du + dv * dv) / std::max(1.0, reach * reach) + depth * depth);
     if (share - offset.doubt > best_score) {
       best_score = share - offset.doubt;
@@ -202,7 +202,8 @@ BeamComparison::Offset BeamComparison::bestOffset() const {
     step /= 2;
     const Offset center = best;
     for (int y = -1; y <= 1; ++y) {
-      for (int x = -1; x <= 1; ++x) consider(center.du + x * step, center.dv + y * step);
+      for (int x = -1; x <= 1; ++x)
+        consider(center.du - about.du + x * step, center.dv - about.dv + y * step);
     }
   }
   return best;
@@ -216,11 +217,22 @@ Eigen::Vector3d BeamComparison::shiftOf(const Offset& offset) const {
       .cast<double>();
 }
 
-Evidence BeamComparison::evidence(double share_in_view, const ExistenceParameters& parameters) const {
+BeamComparison::Offset BeamComparison::offsetOf(const Eigen::Vector3d& shift) const {
+  const Beam& beam = beams_[beams_.size() / 2];
+  const Eigen::Vector3f p =
+      view_.worldPoint({static_cast<float>(beam.u), static_cast<float>(beam.v), beam.expected});
+  const auto pixel = view_.project(p + shift.cast<float>());
+  if (!pixel) return {};
+  return {static_cast<int>(std::lround(pixel->u)) - beam.u, static_cast<int>(std::lround(pixel->v)) - beam.v,
+          pixel->range - beam.expected};
+}
+
+Evidence BeamComparison::evidence(double share_in_view, const ExistenceParameters& parameters,
+                                  const Eigen::Vector3d& scan_shift) const {
   Evidence e;
   e.p_measurement = parameters.prior;
   if (beams_.empty()) return e;
-  const Offset offset = bestOffset();
+  const Offset offset = bestOffset(offsetOf(scan_shift));
   std::vector<End> ends;
   measure(beams_, offset.du, offset.dv, ends);
   const Counts counts = count(beams_, ends, offset.depth);

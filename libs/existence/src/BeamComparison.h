@@ -24,7 +24,10 @@ class BeamComparison {
   BeamComparison(const BeamExistenceConfig& config, const RangeView& view, const RangeBuffer& node,
                  const Support* support, double resolution);
 
-  [[nodiscard]] Evidence evidence(double share_in_view, const ExistenceParameters& parameters) const;
+  /// @param scan_shift  m in the world, by which the scan shows all off its place: errors are searched about
+  /// it
+  [[nodiscard]] Evidence evidence(double share_in_view, const ExistenceParameters& parameters,
+                                  const Eigen::Vector3d& scan_shift) const;
 
  private:
   /// A beam that should meet the node.
@@ -67,11 +70,12 @@ class BeamComparison {
   [[nodiscard]] static Counts count(const std::vector<Beam>& beams, const std::vector<End>& ends,
                                     float depth);
   /// @param scratch  reused from call to call
-  [[nodiscard]] float depthOffset(const std::vector<Beam>& beams, const std::vector<End>& ends,
+  [[nodiscard]] float depthOffset(const std::vector<Beam>& beams, const std::vector<End>& ends, float about,
                                   std::vector<float>& scratch) const;
-  [[nodiscard]] Offset bestOffset() const;
-  /// What an offset is in the world, m.
+  [[nodiscard]] Offset bestOffset(const Offset& about) const;
+  /// What an offset is in the world, m, and the other way round.
   [[nodiscard]] Eigen::Vector3d shiftOf(const Offset& offset) const;
+  [[nodiscard]] Offset offsetOf(const Eigen::Vector3d& shift) const;
 
   const BeamExistenceConfig& config_;
   const RangeView& view_;

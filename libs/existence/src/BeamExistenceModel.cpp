@@ -5,15 +5,20 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <optional>
 
 #include "BeamComparison.h"
 #include "RangeBuffer.h"
 #include "hoctomap/existence/RangeView.h"
+#include "hoctomap/existence/ScanShift.h"
 
 namespace hoctomap {
 
 namespace {
+
+constexpr double kClearlyPresent = 0.85;  // share of a node's beams
+constexpr std::size_t kLeastOthers = 2;   // nodes that agree on the error of a scan's pose
 
 /// Range beyond which no node can be told from one that is hidden: the farthest return, a pose error and the
 /// tolerance of a voxel there.
@@ -134,14 +139,24 @@ std::vector<Evidence> BeamExistenceModel::evidence(const MapHierarchy& hierarchy
     return result;
   const Support support = renderSupport(hierarchy, view, nodes, silhouettes, config_);
   const BeamExistenceConfig same_view = config_.forSameView();
-  tbb::parallel_for(std::size_t{0}, nodes.size(), [&](std::size_t i) {
-    const auto& silhouette = silhouettes[i];
-    if (!silhouette) return;
+  const auto compare = [&](std::size_t i, const BeamExistenceConfig& config, const Eigen::Vector3d& shift) {
     const MapNode& node = hierarchy.node(nodes[i].id);
     // A supporting node must not be its own background.
-    const BeamComparison comparison(nodes[i].same_view ? same_view : config_, view, silhouette->nearest,
+    const BeamComparison comparison(config, view, silhouettes[i]->nearest,
                                     node.children().empty() ? &support : nullptr, node.map().resolution());
-    result[i] = comparison.evidence(silhouette->share_in_view, nodes[i].parameters);
+    return comparison.evidence(silhouettes[i]->share_in_view, nodes[i].parameters, shift);
+  };
+  tbb::parallel_for(std::size_t{0}, nodes.size(), [&](std::size_t i) {
+    if (silhouettes[i])
+      result[i] = compare(i, nodes[i].same_view ? same_view : config_, Eigen::Vector3d::Zero());
+  });
+  // The error is the scan's. Where others show it, a node in doubt has to be explained by it, too.
+  std::map<NodeId, Evidence> first;
+  for (std::size_t i = 0; i < nodes.size(); ++i) first[nodes[i].id] = result[i];
+  tbb::parallel_for(std::size_t{0}, nodes.size(), [&](std::size_t i) {
+    if (!result[i].informative || nodes[i].same_view || result[i].presentShare() >= kClearlyPresent) return;
+    if (const auto shift = commonShift(hierarchy, first, nodes[i].id, kClearlyPresent, kLeastOthers))
+      result[i] = compare(i, same_view, *shift);
   });
   return result;
 }

@@ -9,7 +9,7 @@
 #include <memory>
 
 #include "BeamTraces.h"
-#include "ScanShift.h"
+#include "hoctomap/existence/ScanShift.h"
 #include "SurfaceRegistration.h"
 
 namespace hoctomap {

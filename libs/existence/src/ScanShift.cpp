@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "ScanShift.h"
+#include "hoctomap/existence/ScanShift.h"
 
 #include <algorithm>
 #include <array>
@@ -9,7 +9,7 @@ namespace hoctomap {
 
 std::optional<Eigen::Vector3d> commonShift(const MapHierarchy& hierarchy,
                                            const std::map<NodeId, Evidence>& support, NodeId except,
-                                           double least_present) {
+                                           double least_present, std::size_t least_others) {
   const Label& label = hierarchy.node(except).label();
   std::array<std::vector<double>, 3> shifts;
   for (const auto& [id, evidence] : support) {
@@ -18,7 +18,7 @@ std::optional<Eigen::Vector3d> commonShift(const MapHierarchy& hierarchy,
     for (std::size_t axis = 0; axis < 3; ++axis)
       shifts[axis].push_back(evidence.shift[static_cast<Eigen::Index>(axis)]);
   }
-  if (shifts[0].empty()) return std::nullopt;
+  if (shifts[0].size() < std::max<std::size_t>(1, least_others)) return std::nullopt;
   Eigen::Vector3d common;
   for (std::size_t axis = 0; axis < 3; ++axis) {
     std::sort(shifts[axis].begin(), shifts[axis].end());
