@@ -20,6 +20,7 @@ struct CommandOptions {
   std::optional<std::string> config;
   std::vector<std::string> assignments;
   int scripts = 4;
+  int first_seed = 1;
   int width = 640;
   bool quick = false;
 };
@@ -86,9 +87,9 @@ int changes(CommandOptions options) {
   Summary all;
   for (int kind = 0; kind < kScriptKinds; ++kind) {
     Summary of_kind;
-    for (int seed = 1; seed <= options.scripts; ++seed) {
-      const auto script =
-          makeChangeScript(static_cast<ScriptKind>(kind), static_cast<std::uint64_t>(seed), options.width);
+    for (int k = 0; k < options.scripts; ++k) {
+      const auto seed = static_cast<std::uint64_t>(options.first_seed + k);
+      const auto script = makeChangeScript(static_cast<ScriptKind>(kind), seed, options.width);
       const ChangeResult result = runChangeScript(script, settings);
       for (const std::string& mistake : result.mistakes) std::cerr << mistake << std::endl;
       for (const MotionError& error : result.motions) motions += motionRow(result.name, error);
@@ -120,6 +121,10 @@ void addChangesCommand(CLI::App& app, Action& action) {
   command->add_option("-c,--config", options->config, "configuration")->type_name("INI");
   command->add_option("--set", options->assignments, "section.key=value")->type_name("ASSIGNMENT");
   command->add_option("--scripts", options->scripts, "random scripts of each kind of change")
+      ->type_name("N")
+      ->check(CLI::PositiveNumber)
+      ->capture_default_str();
+  command->add_option("--first-seed", options->first_seed, "of the scripts of each kind")
       ->type_name("N")
       ->check(CLI::PositiveNumber)
       ->capture_default_str();

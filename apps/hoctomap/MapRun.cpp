@@ -132,7 +132,7 @@ void MapRun::finishScan(std::uint64_t scan) {
 void MapRun::commit(bool keep) {
   const auto start = Clock::now();
   directory_.commit({mapper_.hierarchy(), mapper_.removed(), next_scan_, options_.input, keep, last_stamp_,
-                     &mapper_.seams()});
+                     &mapper_.seams(), mapper_.sensor()});
   uncommitted_ = 0;
   if (keep) since_snapshot_ = 0;
   summary_.addSeconds("write", secondsSince(start));

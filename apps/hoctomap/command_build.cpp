@@ -49,8 +49,8 @@ HierarchyMapper makeMapper(const Settings& settings, const std::optional<Manifes
   MapReadOptions options;
   options.to_go_on = true;
   StoredMap stored = readMap(directory, options);
-  return {settings.mappingConfig(), settings.labels, makeStrategies(settings), std::move(stored.hierarchy),
-          std::move(stored.seams)};
+  return {settings.mappingConfig(),    settings.labels,         makeStrategies(settings),
+          std::move(stored.hierarchy), std::move(stored.seams), stored.manifest.sensor};
 }
 
 /// The told motions that a run beginning at `first_scan` has to apply.

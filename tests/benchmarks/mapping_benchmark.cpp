@@ -29,16 +29,13 @@ void association(benchmark::State& state, const BenchmarkInput& input) {
 
 void existence(benchmark::State& state, const BenchmarkInput& input) {
   const MappingStrategies strategies = makeStrategies(input.settings());
-  std::vector<NodeId> nodes;
-  std::vector<ExistenceParameters> parameters;
+  std::vector<NodeInQuestion> nodes;
   for (const NodeId id : input.map().ids()) {
     if (id == kRootId) continue;
-    nodes.push_back(id);
-    parameters.push_back(input.settings().labels.at(input.map().node(id).label()).existence);
+    nodes.push_back({id, input.settings().labels.at(input.map().node(id).label()).existence});
   }
   for (auto _ : state) {
-    benchmark::DoNotOptimize(
-        strategies.existence->evidence(input.map(), input.lastScan(), nodes, parameters));
+    benchmark::DoNotOptimize(strategies.existence->evidence(input.map(), input.lastScan(), nodes));
   }
   state.counters["nodes"] = static_cast<double>(nodes.size());
 }

@@ -74,18 +74,12 @@ TEST(RealData, NothingOfTheKitchenIsRemovedByErrorsOfPoses) {
   }
 }
 
-/// Object nodes of at least 1000 points that were made in the first scans and are there at the end. Two
-/// smaller ones stay, though they should not (docs/plans.md): one has too few beams for evidence, one grows
-/// into the wall.
+/// Nodes of objects that were made in the first scans and are there at the end.
 std::set<std::string> survivors(const std::string& map, int first_scans) {
   std::set<std::string> alive;
   for (const auto& row : test::parseCsv(test::readFile(std::filesystem::path(map) / "events.csv"))) {
     if (row.at("label") != "object") continue;
-    const bool is_early = std::stoi(row.at("scan")) < first_scans;
-    const std::string detail = row.at("detail") + " 0";  // begins with the number of points, or a quote
-    if (row.at("event") == "created" && is_early &&
-        std::stoi(detail.substr(detail.find_first_of("0123456789"))) >= 1000)
-      alive.insert(row.at("node"));
+    if (row.at("event") == "created" && std::stoi(row.at("scan")) < first_scans) alive.insert(row.at("node"));
     if (row.at("event") == "removed" || row.at("event") == "merged") alive.erase(row.at("node"));
   }
   return alive;

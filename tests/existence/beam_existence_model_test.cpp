@@ -59,8 +59,8 @@ struct MappedPlate {
     h.node(id).map().update(*makeReferenceScanUpdate(), beams);
   }
 
-  [[nodiscard]] Evidence see(const Measurement& z) const {
-    return BeamExistenceModel({}).evidence(h, z, {plate}, {ExistenceParameters{}}).front();
+  [[nodiscard]] Evidence see(const Measurement& z, bool same_view = false) const {
+    return BeamExistenceModel({}).evidence(h, z, {{plate, {}, same_view}}).front();
   }
 };
 
@@ -131,6 +131,15 @@ TEST(BeamExistenceModel, AnUnorganisedCloudSaysTheSame) {
   }
 }
 
+TEST(BeamExistenceModel, FromWhereANodeWasMappedThereIsNoPoseError) {
+  const MappedPlate scene;
+  const Measurement moved = look({{1.2, 0.03}, {1.215, -0.05}});  // two others, where the plate was
+  EXPECT_GT(scene.see(moved).presentShare(), scene.see(moved, true).presentShare());
+  EXPECT_GT(scene.see(look({{1.2}}), true).p_measurement, 0.85);
+  EXPECT_TRUE(scene.see(look({{1.222}}), true).contradicts()) << "two centimetres behind it";
+  EXPECT_FALSE(scene.see(look({{1.222}})).contradicts()) << "an error of the pose";
+}
+
 /// Whether all is the same.
 bool same(const Evidence& a, const Evidence& b) {
   return a.present == b.present && a.absent == b.absent && a.occluded == b.occluded &&
@@ -141,25 +150,26 @@ TEST(BeamExistenceModel, NodesElsewhereChangeNothing) {
   MappedPlate alone;
   MappedPlate crowd;
   const PointCloud few{{0.0F, 0.0F, 0.0F}, {0.02F, 0.0F, 0.0F}};
-  std::vector<NodeId> nodes{crowd.plate};
+  std::vector<NodeInQuestion> nodes{{crowd.plate, {}}};
   for (const auto& [x, y, z] :
        {std::tuple{-1.0, 0.0, 0.0}, {1.2, 3.0, 0.0}, {1.2, 0.0, -4.0}, {9.0, 0.0, 0.0}}) {
     const NodeId table = crowd.h.add(labels::table, NodeMap(0.01, {}), Pose(x, y, z, 0, 0, 0), kRootId);
     crowd.update(table, few, Eigen::Vector3f(-1, 0, 0));
     const NodeId object = crowd.h.add(labels::object, NodeMap(0.01, {}), Pose(x, y, z, 0, 0, 0), table);
     crowd.update(object, few, Eigen::Vector3f(-1, 0, 0));
-    nodes.insert(nodes.end(), {table, object});
+    nodes.push_back({table, {}});
+    nodes.push_back({object, {}});
   }
   const BeamExistenceModel model({});
   const Measurement z = look({{1.2}});
-  const auto evidence = model.evidence(crowd.h, z, nodes, std::vector<ExistenceParameters>(nodes.size()));
+  const auto evidence = model.evidence(crowd.h, z, nodes);
   EXPECT_TRUE(same(evidence.front(), alone.see(z)));
   for (std::size_t i = 1; i < nodes.size(); ++i) {
     EXPECT_TRUE(same(evidence[i], {0, 0, 0, false, 0.5})) << i;
   }
   const Eigen::AlignedBox3d reach = model.reach(z);
   EXPECT_TRUE(reach.contains(worldBounds(crowd.h.box(crowd.plate))));
-  EXPECT_FALSE(reach.intersects(worldBounds(crowd.h.box(nodes.back())))) << "beyond the farthest return";
+  EXPECT_FALSE(reach.intersects(worldBounds(crowd.h.box(nodes.back().id)))) << "beyond the farthest return";
 }
 
 }  // namespace

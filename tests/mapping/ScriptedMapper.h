@@ -44,10 +44,9 @@ class DictatedEvidence : public InverseExistenceModel {
   explicit DictatedEvidence(std::shared_ptr<std::map<NodeId, Evidence>> by_node)
       : by_node_(std::move(by_node)) {}
   [[nodiscard]] std::vector<Evidence> evidence(const MapHierarchy&, const Measurement&,
-                                               const std::vector<NodeId>& nodes,
-                                               const std::vector<ExistenceParameters>&) const override {
+                                               const std::vector<NodeInQuestion>& nodes) const override {
     std::vector<Evidence> result;
-    for (const NodeId id : nodes) result.push_back((*by_node_)[id]);
+    for (const NodeInQuestion& node : nodes) result.push_back((*by_node_)[node.id]);
     return result;
   }
 

@@ -10,6 +10,9 @@ namespace {
 
 constexpr std::size_t kSearchBeams = 300;  // enough to find the offset; all beams then count
 constexpr int kCoarseSteps = 5;            // to each side of zero
+constexpr std::size_t kInnerPixels = 100;  // of a node; if it has fewer, its edges count too
+constexpr double kOffsetDoubt = 0.05;      // share of the beams that the largest error of a pose has to win
+constexpr double kHalfWeight = 25.0;       // beams that say half of what many do
 
 template <typename T>
 std::vector<T> strided(const std::vector<T>& all, std::size_t most) {
@@ -57,32 +60,46 @@ class EmptyCount {
   std::vector<std::uint32_t> count_;
 };
 
+struct Pixel {
+  int u;
+  int v;
+  int k;  ///< half width of the neighbourhood
+};
+
+/// Pixels that have the node all around them, as far as `window` metres. At the silhouette mixed pixels and
+/// halos say nothing; but what is all edge, because it is small or thin, is judged by narrower
+/// neighbourhoods.
+std::vector<Pixel> innerPixels(const RangeBuffer& node, float focal, double window) {
+  const EmptyCount empty(node);
+  std::vector<Pixel> pixels;
+  for (double half = window;; half *= 0.5) {
+    pixels.clear();
+    int widest = 1;
+    for (int v = node.v0(); v <= node.v1(); ++v) {
+      for (int u = node.u0(); u <= node.u1(); ++u) {
+        const float expected = node.at(u, v);
+        if (expected == RangeBuffer::kEmpty) continue;
+        const int k = std::max(1, static_cast<int>(focal * half / expected + 0.5));
+        widest = std::max(widest, k);
+        if (!empty.anyAround(u, v, k)) pixels.push_back({u, v, k});
+      }
+    }
+    if (pixels.size() >= kInnerPixels || widest == 1) return pixels;
+  }
+}
+
 }  // namespace
 
 BeamComparison::BeamComparison(const BeamExistenceConfig& config, const RangeView& view,
-                               const RangeBuffer& node, const RangeBuffer* support, double resolution)
-    : config_(config), view_(view) {
-  collectBeams(node, support, resolution);
+                               const RangeBuffer& node, const Support* support, double resolution)
+    : config_(config), view_(view), support_(support) {
+  collectBeams(node, resolution);
 }
 
-void BeamComparison::collectBeams(const RangeBuffer& node, const RangeBuffer* support, double resolution) {
-  struct Pixel {
-    int u;
-    int v;
-    int k;  ///< half width of the neighbourhood
-  };
-  const EmptyCount empty(node);
-  std::vector<Pixel> pixels;
-  for (int v = node.v0(); v <= node.v1(); ++v) {
-    for (int u = node.u0(); u <= node.u1(); ++u) {
-      const float expected = node.at(u, v);
-      if (expected == RangeBuffer::kEmpty) continue;
-      const int k = std::max(1, static_cast<int>(view_.focal() * config_.window / expected + 0.5));
-      // At the silhouette mixed pixels and halos say nothing.
-      if (!empty.anyAround(u, v, k)) pixels.push_back({u, v, k});
-    }
-  }
-  for (const auto& [u, v, k] : strided(pixels, static_cast<std::size_t>(config_.max_beams))) {
+void BeamComparison::collectBeams(const RangeBuffer& node, double resolution) {
+  const auto pixels =
+      strided(innerPixels(node, view_.focal(), config_.window), static_cast<std::size_t>(config_.max_beams));
+  for (const auto& [u, v, k] : pixels) {
     const float expected = node.at(u, v);
     float nearest = expected;
     float farthest = expected;
@@ -93,58 +110,65 @@ void BeamComparison::collectBeams(const RangeBuffer& node, const RangeBuffer* su
       }
     }
     const double tolerance = config_.rangeTolerance(resolution, expected);
-    const float behind = support == nullptr ? RangeBuffer::kEmpty : support->at(u, v);
-    if (behind - farthest >= 2.0 * tolerance + config_.pose_depth) {
-      beams_.push_back({u, v, expected, nearest, farthest, static_cast<float>(tolerance)});
-    } else {
-      ++uninformative_;
-    }
+    const float behind = support_ == nullptr ? RangeBuffer::kEmpty : support_->behind.at(u, v);
+    const bool clear = behind - farthest >= 2.0 * tolerance + config_.pose_depth;
+    beams_.push_back({u, v, expected, nearest, farthest, static_cast<float>(tolerance), clear});
   }
 }
 
-void BeamComparison::measure(const std::vector<Beam>& beams, int du, int dv,
-                             std::vector<float>& measured) const {
-  measured.clear();
-  for (const Beam& beam : beams) measured.push_back(view_.measured(beam.u + du, beam.v + dv));
+void BeamComparison::measure(const std::vector<Beam>& beams, int du, int dv, std::vector<End>& ends) const {
+  ends.clear();
+  for (const Beam& beam : beams) {
+    const int u = beam.u + du;
+    const int v = beam.v + dv;
+    ends.push_back(
+        {view_.measured(u, v), support_ == nullptr ? RangeBuffer::kEmpty : support_->exact.at(u, v)});
+  }
 }
 
-BeamComparison::Counts BeamComparison::count(const std::vector<Beam>& beams,
-                                             const std::vector<float>& measured, float depth) {
+BeamComparison::Counts BeamComparison::count(const std::vector<Beam>& beams, const std::vector<End>& ends,
+                                             float depth) {
   Counts counts;
   for (std::size_t i = 0; i < beams.size(); ++i) {
     const Beam& beam = beams[i];
-    if (measured[i] == 0.0F) {
+    const auto& [measured, background] = ends[i];
+    if (measured == 0.0F) {
       ++counts.no_return;  // never free space
       continue;
     }
-    const float range = measured[i] - depth;
+    const float range = measured - depth;
     if (range < beam.nearest - beam.tolerance) {
       ++counts.occluded;
-    } else if (range <= beam.farthest + beam.tolerance) {
-      ++counts.present;
+      continue;
+    }
+    // A beam that ends on what is mapped there anyway is not the node's, whatever the error of the pose.
+    const bool on_node = range <= beam.farthest + beam.tolerance &&
+                         std::abs(range - beam.expected) <= std::abs(measured - background);
+    if (on_node) {
+      ++(beam.clear ? counts.present : counts.unclear_present);
     } else {
-      ++counts.absent;
+      ++(beam.clear ? counts.absent : counts.unclear_absent);
     }
   }
   return counts;
 }
 
-float BeamComparison::depthOffset(const std::vector<Beam>& beams, const std::vector<float>& measured,
+float BeamComparison::depthOffset(const std::vector<Beam>& beams, const std::vector<End>& ends, float about,
                                   std::vector<float>& scratch) const {
   scratch.clear();
   const auto pose_depth = static_cast<float>(config_.pose_depth);
   for (std::size_t i = 0; i < beams.size(); ++i) {
-    const float difference = measured[i] - beams[i].expected;
-    if (measured[i] > 0.0F && std::abs(difference) < pose_depth + beams[i].tolerance)
+    const float difference = ends[i].measured - beams[i].expected;
+    if (ends[i].measured > 0.0F && std::abs(difference - about) < pose_depth + beams[i].tolerance)
       scratch.push_back(difference);
   }
-  if (scratch.empty()) return 0.0F;
+  if (scratch.empty()) return about;
   const auto middle = scratch.begin() + static_cast<std::ptrdiff_t>(scratch.size() / 2);
   std::nth_element(scratch.begin(), middle, scratch.end());
-  return std::clamp(*middle, -pose_depth, pose_depth);
+  return std::clamp(*middle, about - pose_depth, about + pose_depth);
 }
 
-BeamComparison::Offset BeamComparison::bestOffset() const {
+BeamComparison::Offset BeamComparison::bestOffset(const Offset& about) const {
   const std::vector<Beam> beams = strided(beams_, kSearchBeams);
   float mean_range = 0.0F;
   for (const Beam& beam : beams) mean_range += beam.expected;
@@ -153,18 +177,18 @@ BeamComparison::Offset BeamComparison::bestOffset() const {
 
   Offset best;
   double best_score = -1e9;
-  std::vector<float> measured;
+  std::vector<End> ends;
   std::vector<float> scratch;
-  const auto consider = [&](int du, int dv) {
+  const auto consider = [&](int du, int dv) {  // beside `about`
     if (du * du + dv * dv > reach * reach) return;
-    measure(beams, du, dv, measured);
-    const Offset offset{du, dv, depthOffset(beams, measured, scratch)};
-    const double share =
-        static_cast<double>(count(beams, measured, offset.depth).present) / static_cast<double>(beams.size());
-    const double depth = config_.pose_depth > 0.0 ? offset.depth / config_.pose_depth : 0.0;
-    const double score = share - 0.05 * ((du * du + dv * dv) / std::max(1.0, reach * reach) + depth * depth);
-    if (score > best_score) {
-      best_score = score;
+    measure(beams, about.du + du, about.dv + dv, ends);
+    Offset offset{about.du + du, about.dv + dv, depthOffset(beams, ends, about.depth, scratch)};
+    const double share = static_cast<double>(count(beams, ends, offset.depth).present_at_most()) /
+                         static_cast<double>(beams.size());
+    const double depth = config_.pose_depth > 0.0 ? (offset.depth - about.depth) / config_.pose_depth : 0.0;
+    offset.doubt = kOffsetDoubt * ((du * du + dv * dv) / std::max(1.0, reach * reach) + depth * depth);
+    if (share - offset.doubt > best_score) {
+      best_score = share - offset.doubt;
       best = offset;
     }
   };
@@ -178,32 +202,65 @@ BeamComparison::Offset BeamComparison::bestOffset() const {
     step /= 2;
     const Offset center = best;
     for (int y = -1; y <= 1; ++y) {
-      for (int x = -1; x <= 1; ++x) consider(center.du + x * step, center.dv + y * step);
+      for (int x = -1; x <= 1; ++x)
+        consider(center.du - about.du + x * step, center.dv - about.dv + y * step);
     }
   }
   return best;
 }
 
-Evidence BeamComparison::evidence(double share_in_view, const ExistenceParameters& parameters) const {
+Eigen::Vector3d BeamComparison::shiftOf(const Offset& offset) const {
+  const Beam& beam = beams_[beams_.size() / 2];  // all are about as far
+  const auto at = [](int x) { return static_cast<float>(x); };
+  return (view_.worldPoint({at(beam.u + offset.du), at(beam.v + offset.dv), beam.expected + offset.depth}) -
+          view_.worldPoint({at(beam.u), at(beam.v), beam.expected}))
+      .cast<double>();
+}
+
+BeamComparison::Offset BeamComparison::offsetOf(const Eigen::Vector3d& shift) const {
+  const Beam& beam = beams_[beams_.size() / 2];
+  const Eigen::Vector3f p =
+      view_.worldPoint({static_cast<float>(beam.u), static_cast<float>(beam.v), beam.expected});
+  const auto pixel = view_.project(p + shift.cast<float>());
+  if (!pixel) return {};
+  return {static_cast<int>(std::lround(pixel->u)) - beam.u, static_cast<int>(std::lround(pixel->v)) - beam.v,
+          pixel->range - beam.expected};
+}
+
+Evidence BeamComparison::evidence(double share_in_view, const ExistenceParameters& parameters,
+                                  const Eigen::Vector3d& scan_shift) const {
   Evidence e;
   e.p_measurement = parameters.prior;
   if (beams_.empty()) return e;
-  const Offset offset = bestOffset();
-  std::vector<float> measured;
-  measure(beams_, offset.du, offset.dv, measured);
-  const Counts counts = count(beams_, measured, offset.depth);
+  const Offset offset = bestOffset(offsetOf(scan_shift));
+  std::vector<End> ends;
+  measure(beams_, offset.du, offset.dv, ends);
+  const Counts counts = count(beams_, ends, offset.depth);
   e.present = counts.present;
   e.absent = counts.absent;
   e.occluded = counts.occluded;
+  e.shift = shiftOf(offset);
 
-  const double n = counts.present + counts.absent;
-  const double visible = n / (n + counts.occluded + counts.no_return + uninformative_);
-  e.informative = n >= config_.min_beams && visible >= config_.min_visible &&
-                  share_in_view >= config_.min_in_view && n >= 0.3 * (n + uninformative_);
+  const auto all = static_cast<double>(beams_.size());
+  const auto isEnough = [&](double n) {
+    return n >= config_.min_beams && n >= config_.min_visible * all && share_in_view >= config_.min_in_view;
+  };
+  double n = counts.present + counts.absent;
+  double share_present = counts.present / n;
+  e.informative = isEnough(n) && n >= 0.3 * (n + counts.unclear_present + counts.unclear_absent);
+  // Where the background is near, beams that end on the node say little, but those that pass it do.
+  if (!e.informative && isEnough(counts.reached()) &&
+      counts.present_at_most() < (0.5 + offset.doubt) * counts.reached()) {
+    e.informative = true;
+    e.present = counts.present_at_most();
+    e.absent = counts.absent + counts.unclear_absent;
+    n = counts.reached();
+    share_present = e.present / n - offset.doubt;
+  }
   if (!e.informative) return e;
   // From p_absent to p_present by the share of beams that end on the node, the less the fewer they are.
-  const double share_present = counts.present / n;
-  const double weight = n / (n + 100.0) * std::min(1.0, visible / 0.3) * std::min(1.0, share_in_view / 0.7);
+  const double weight =
+      n / (n + kHalfWeight) * std::min(1.0, n / all / 0.3) * std::min(1.0, share_in_view / 0.7);
   e.p_measurement = std::clamp(probability(8.0 * (share_present - 0.5) * weight + logOdds(parameters.prior)),
                                parameters.p_absent, parameters.p_present);
   return e;

@@ -5,15 +5,20 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <optional>
 
 #include "BeamComparison.h"
 #include "RangeBuffer.h"
 #include "hoctomap/existence/RangeView.h"
+#include "hoctomap/existence/ScanShift.h"
 
 namespace hoctomap {
 
 namespace {
+
+constexpr double kClearlyPresent = 0.85;  // share of a node's beams
+constexpr std::size_t kLeastOthers = 2;   // nodes that agree on the error of a scan's pose
 
 /// Range beyond which no node can be told from one that is hidden: the farthest return, a pose error and the
 /// tolerance of a voxel there.
@@ -69,12 +74,13 @@ std::optional<Silhouette> render(const MapHierarchy& hierarchy, NodeId id, const
   return s;
 }
 
-/// What stands behind the nodes in question: all nodes that have a child, and the root, rendered as far as
-/// some silhouette lies before it. Their voxels are coarse: one that is not clearly behind a node's surface
-/// says nothing of what a beam would meet if the node was gone.
-RangeBuffer renderSupport(const MapHierarchy& hierarchy, const RangeView& view,
-                          const std::vector<NodeId>& nodes,
-                          const std::vector<std::optional<Silhouette>>& silhouettes) {
+/// What stands behind the nodes in question: all nodes that have a child, and the root. Their voxels are
+/// coarse: one that is not clearly behind a node's surface says nothing of what a beam would meet if the node
+/// was gone.
+Support renderSupport(const MapHierarchy& hierarchy, const RangeView& view,
+                      const std::vector<NodeInQuestion>& nodes,
+                      const std::vector<std::optional<Silhouette>>& silhouettes,
+                      const BeamExistenceConfig& config) {
   Eigen::AlignedBox2i field;
   double range = 0.0;
   for (const auto& s : silhouettes) {
@@ -83,10 +89,11 @@ RangeBuffer renderSupport(const MapHierarchy& hierarchy, const RangeView& view,
     field.extend(Eigen::Vector2i(s->nearest.u1(), s->nearest.v1()));
     range = std::max(range, s->background_range);
   }
-  RangeBuffer support(field.min().x(), field.min().y(), field.max().x(), field.max().y());
-  RangeBuffer front = support;
+  RangeBuffer front(field.min().x(), field.min().y(), field.max().x(), field.max().y());
+  Support support{front, front};
   for (std::size_t i = 0; i < nodes.size(); ++i) {
-    if (silhouettes[i] && hierarchy.node(nodes[i]).children().empty()) front.overlay(silhouettes[i]->nearest);
+    if (silhouettes[i] && hierarchy.node(nodes[i].id).children().empty())
+      front.overlay(silhouettes[i]->nearest);
   }
   const double pixels = 2.0 * range / view.focal();  // that a voxel's square may stick out
   const Eigen::AlignedBox3d bounds = view.worldBounds(range);
@@ -95,10 +102,14 @@ RangeBuffer renderSupport(const MapHierarchy& hierarchy, const RangeView& view,
     if (id != kRootId && node.children().empty()) continue;
     if (!view.mayShow(hierarchy.box(id).padded(node.map().resolution() + pixels), range)) continue;
     const Eigen::Isometry3f world_T_node = toIsometry(hierarchy.world_T_node(id)).cast<float>();
+    const auto edge = static_cast<float>(node.map().resolution());
+    // Half a diagonal: by as much a coarse voxel errs.
+    const bool is_exact = 0.87 * node.map().resolution() <= config.pose_depth + config.tolerance;
     for (const auto& voxel : node.map().occupiedVoxels()) {
       const auto pixel = view.project(world_T_node * voxel);
-      if (pixel)
-        support.splatBehind(front, *pixel, view.focal(), static_cast<float>(node.map().resolution()));
+      if (!pixel) continue;
+      support.behind.splatBehind(front, *pixel, view.focal(), edge, false);
+      if (is_exact) support.exact.splatBehind(front, *pixel, view.focal(), edge, true);
     }
   }
   return support;
@@ -115,27 +126,37 @@ Eigen::AlignedBox3d BeamExistenceModel::reach(const Measurement& measurement) co
 
 std::vector<Evidence> BeamExistenceModel::evidence(const MapHierarchy& hierarchy,
                                                    const Measurement& measurement,
-                                                   const std::vector<NodeId>& nodes,
-                                                   const std::vector<ExistenceParameters>& parameters) const {
+                                                   const std::vector<NodeInQuestion>& nodes) const {
   std::vector<Evidence> result(nodes.size());
-  for (std::size_t i = 0; i < nodes.size(); ++i) result[i].p_measurement = parameters[i].prior;
+  for (std::size_t i = 0; i < nodes.size(); ++i) result[i].p_measurement = nodes[i].parameters.prior;
   const RangeView view(measurement);
   if (nodes.empty() || view.width() == 0) return result;
 
   std::vector<std::optional<Silhouette>> silhouettes(nodes.size());
   tbb::parallel_for(std::size_t{0}, nodes.size(),
-                    [&](std::size_t i) { silhouettes[i] = render(hierarchy, nodes[i], view, config_); });
+                    [&](std::size_t i) { silhouettes[i] = render(hierarchy, nodes[i].id, view, config_); });
   if (std::none_of(silhouettes.begin(), silhouettes.end(), [](const auto& s) { return s.has_value(); }))
     return result;
-  const RangeBuffer support = renderSupport(hierarchy, view, nodes, silhouettes);
-  tbb::parallel_for(std::size_t{0}, nodes.size(), [&](std::size_t i) {
-    const auto& silhouette = silhouettes[i];
-    if (!silhouette) return;
-    const MapNode& node = hierarchy.node(nodes[i]);
+  const Support support = renderSupport(hierarchy, view, nodes, silhouettes, config_);
+  const BeamExistenceConfig same_view = config_.forSameView();
+  const auto compare = [&](std::size_t i, const BeamExistenceConfig& config, const Eigen::Vector3d& shift) {
+    const MapNode& node = hierarchy.node(nodes[i].id);
     // A supporting node must not be its own background.
-    const BeamComparison comparison(config_, view, silhouette->nearest,
+    const BeamComparison comparison(config, view, silhouettes[i]->nearest,
                                     node.children().empty() ? &support : nullptr, node.map().resolution());
-    result[i] = comparison.evidence(silhouette->share_in_view, parameters[i]);
+    return comparison.evidence(silhouettes[i]->share_in_view, nodes[i].parameters, shift);
+  };
+  tbb::parallel_for(std::size_t{0}, nodes.size(), [&](std::size_t i) {
+    if (silhouettes[i])
+      result[i] = compare(i, nodes[i].same_view ? same_view : config_, Eigen::Vector3d::Zero());
+  });
+  // The error is the scan's. Where others show it, a node in doubt has to be explained by it, too.
+  std::map<NodeId, Evidence> first;
+  for (std::size_t i = 0; i < nodes.size(); ++i) first[nodes[i].id] = result[i];
+  tbb::parallel_for(std::size_t{0}, nodes.size(), [&](std::size_t i) {
+    if (!result[i].informative || nodes[i].same_view || result[i].presentShare() >= kClearlyPresent) return;
+    if (const auto shift = commonShift(hierarchy, first, nodes[i].id, kClearlyPresent, kLeastOthers))
+      result[i] = compare(i, same_view, *shift);
   });
   return result;
 }

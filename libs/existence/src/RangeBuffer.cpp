@@ -37,10 +37,11 @@ void RangeBuffer::splat(const RangeView::Pixel& center, float focal, float size)
 }
 
 void RangeBuffer::splatBehind(const RangeBuffer& front, const RangeView::Pixel& center, float focal,
-                              float size) {
+                              float size, bool beside) {
   const float nearest = center.range - 0.5F * size;
   forPixels(center, focal, size, [&](int x, int y, float& range) {
-    if (nearest >= front.at(x, y)) range = std::min(range, center.range);
+    const float before = front.at(x, y);
+    if (before == kEmpty ? beside : nearest >= before) range = std::min(range, center.range);
   });
 }
 

@@ -24,7 +24,9 @@ class RangeBuffer {
   /// Renders a cube of edge `size` metres as the square it covers about its centre.
   void splat(const RangeView::Pixel& center, float focal, float size);
   /// The same, but only where the centre lies half an edge or more behind what `front` holds.
-  void splatBehind(const RangeBuffer& front, const RangeView::Pixel& center, float focal, float size);
+  /// @param beside  also where `front` holds nothing
+  void splatBehind(const RangeBuffer& front, const RangeView::Pixel& center, float focal, float size,
+                   bool beside);
 
   /// The nearer of both, where `other` lies within this one.
   void overlay(const RangeBuffer& other);

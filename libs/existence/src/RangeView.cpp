@@ -80,6 +80,17 @@ std::optional<RangeView::Pixel> RangeView::project(const Eigen::Vector3f& world_
   return Pixel{cx_ - focal_ * p.y() / p.x(), cy_ - fy_ * p.z() / p.x(), p.x()};
 }
 
+Eigen::Vector3f RangeView::worldPoint(const Pixel& pixel) const {
+  const auto& [u, v, range] = pixel;
+  if (!spherical_)
+    return sensor_T_world_.inverse() * (range * Eigen::Vector3f(1.0F, (cx_ - u) / focal_, (cy_ - v) / fy_));
+  const float azimuth = cx_ + u * kSphericalStep;  // as in anglesOf
+  const float elevation = cy_ + v * kSphericalStep;
+  return sensor_T_world_.inverse() *
+         (range * Eigen::Vector3f(std::cos(elevation) * std::cos(azimuth),
+                                  -std::cos(elevation) * std::sin(azimuth), -std::sin(elevation)));
+}
+
 bool RangeView::mayShow(const Obb& box, double range) const {
   if (box.box.isEmpty()) return false;
   const Eigen::Isometry3d sensor_T_box = sensor_T_world_.cast<double>() * box.world_T_frame;

@@ -42,13 +42,18 @@ FileRecord readFile(const YamlSection& section) {
 }
 
 /// The exact matrix is the pose; the text beside it must say the same, or somebody has edited one of them.
-Pose readPose(const YamlSection& node, const std::string& text_key, const std::string& matrix_key) {
+Pose readMatrix(const YamlSection& matrix) {
   Pose pose;
   try {
-    pose = poseFromNumbers(node[matrix_key].numbers<16>());
+    pose = poseFromNumbers(matrix.numbers<16>());
   } catch (const std::invalid_argument& error) {
-    node[matrix_key].refuse(error.what());
+    matrix.refuse(error.what());
   }
+  return pose;
+}
+
+Pose readPose(const YamlSection& node, const std::string& text_key, const std::string& matrix_key) {
+  const Pose pose = readMatrix(node[matrix_key]);
   const auto text = parsePoseText(node[text_key].text());
   if (!text) node[text_key].refuse("is no pose \"[x y z yaw pitch roll]\"");
   double scale = 1.0;
@@ -172,6 +177,10 @@ Manifest readDocument(const YamlSection& document, const std::string& name) {
   if (files.has("events_before_end")) manifest.events_before_end = readFile(files["events_before_end"]);
   if (files.has("seams")) manifest.seams = readFile(files["seams"]);
   if (files.has("scene")) manifest.scene = readFile(files["scene"]);
+  if (document.has("sensor")) {
+    const YamlSection sensor = document["sensor"];
+    manifest.sensor = StillSensor{readMatrix(sensor["pose_matrix"]), sensor["still_since"].count()};
+  }
   manifest.nodes = orderedTree(readNodes(document["nodes"], NodeList::tree, name), name);
   manifest.removed = readNodes(document["removed"], NodeList::removed, name);
   if (document.has("waiting")) manifest.waiting = readNodes(document["waiting"], NodeList::waiting, name);

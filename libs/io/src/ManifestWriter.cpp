@@ -102,6 +102,10 @@ std::string toYaml(const Manifest& manifest) {
   }
   if (manifest.seams) text += "  seams: " + fileText(*manifest.seams) + "\n";
   if (manifest.scene) text += "  scene: " + fileText(*manifest.scene) + "\n";
+  if (manifest.sensor) {
+    text += "sensor: {still_since: " + std::to_string(manifest.sensor->since_scan) +
+            ", pose_matrix: " + flowList(matrixNumbers(manifest.sensor->world_T_sensor)) + "}\n";
+  }
   return text + nodesText("nodes", manifest.nodes) + nodesText("removed", manifest.removed) +
          nodesText("waiting", manifest.waiting);
 }

@@ -126,6 +126,7 @@ Manifest MapDirectory::Session::describe(const MapState& state) {
   manifest.config = {kConfigName, options_.config.size(), manifest.config_sha256};
   manifest.input = state.input;
   manifest.next_id = state.hierarchy.nextId();
+  manifest.sensor = state.sensor;
   for (const NodeId id : state.hierarchy.preorder()) {
     NodeRecord record = node_files_.record(state.hierarchy.node(id), state.hierarchy.world_T_node(id));
     std::erase_if(record.children, [&](NodeId child) { return waits(child); });

@@ -37,12 +37,13 @@ HierarchyMapper::HierarchyMapper(MappingConfig config, LabelProfiles profiles, M
     : HierarchyMapper(config, profiles, std::move(strategies), makeRoot(profiles)) {}
 
 HierarchyMapper::HierarchyMapper(MappingConfig config, LabelProfiles profiles, MappingStrategies strategies,
-                                 MapHierarchy hierarchy, SeamVotes seams)
+                                 MapHierarchy hierarchy, SeamVotes seams, std::optional<StillSensor> sensor)
     : config_(config),
       profiles_(std::move(profiles)),
       strategies_(std::move(strategies)),
       hierarchy_(std::move(hierarchy)),
-      seams_(std::move(seams)) {
+      seams_(std::move(seams)),
+      sensor_(std::move(sensor)) {
   for (const NodeId id : hierarchy_.ids()) {
     if (std::as_const(hierarchy_).node(id).confirmation.waits) waiting_.insert(id);
   }
@@ -58,6 +59,7 @@ UpdateReport HierarchyMapper::integrate(const Measurement& z, PreparedScan prepa
   std::vector<LabelledPart>& parts = prepared.parts;
   report.seconds.segment = prepared.seconds;
 
+  if (!sensor_ || !sensor_->isAt(z.world_T_sensor)) sensor_ = StillSensor{z.world_T_sensor, z.scan};
   // What the whole measurement says of the nodes, before anything of it is integrated (III-D).
   NodeEvidence evidence;
   {
@@ -136,16 +138,15 @@ std::vector<LabelledPart> HierarchyMapper::segmentAndLabel(const Measurement& z)
 HierarchyMapper::NodeEvidence HierarchyMapper::gatherEvidence(const Measurement& z) const {
   NodeEvidence gathered;
   if (!strategies_.existence) return gathered;
-  std::vector<NodeId> nodes;
-  std::vector<ExistenceParameters> parameters;
+  std::vector<NodeInQuestion> nodes;
   for (const NodeId id : hierarchy_.idsNear(strategies_.existence->reach(z))) {
-    const LabelProfile& p = profile(hierarchy_.node(id).label());
+    const MapNode& node = hierarchy_.node(id);
+    const LabelProfile& p = profile(node.label());
     if (id == kRootId || !p.existence_enabled) continue;
-    nodes.push_back(id);
-    parameters.push_back(p.existence);
+    nodes.push_back({id, p.existence, sensor_ && node.first_scan >= sensor_->since_scan});
   }
-  const auto evidence = strategies_.existence->evidence(hierarchy_, z, nodes, parameters);
-  for (std::size_t i = 0; i < nodes.size(); ++i) gathered.by_node[nodes[i]] = evidence[i];
+  const auto evidence = strategies_.existence->evidence(hierarchy_, z, nodes);
+  for (std::size_t i = 0; i < nodes.size(); ++i) gathered.by_node[nodes[i].id] = evidence[i];
   return gathered;
 }
 

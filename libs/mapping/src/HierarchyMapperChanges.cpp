@@ -39,7 +39,7 @@ void HierarchyMapper::followMovedObjects(const Measurement& z, std::vector<Label
   findReplaced(z, clusters, evidence);
   const ScanSight sight(z, config.registration.near, config.noise);
   MovedObjects moved = findMoved(z, sight, clusters, evidence);
-  const auto carriers = findMovedCarriers(hierarchy_, moved.found, evidence.by_node, sight, config);
+  const auto carriers = findMovedCarriers(hierarchy_, moved.candidates, evidence.by_node, sight, config);
   if (!carriers.empty()) {
     for (const MovedCarrier& carrier : carriers) {
       moveInWorld(carrier.node, carrier.motion);

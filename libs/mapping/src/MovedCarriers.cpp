@@ -82,13 +82,18 @@ double contradictedShare(const PointCloud& world_surface, const Eigen::Isometry3
   return shown == 0 ? 1.0 : static_cast<double>(through) / static_cast<double>(shown);
 }
 
-/// The children that a motion takes to where they were found.
+/// The children that a motion takes to where they were found, each once.
 Children followers(const MapHierarchy& hierarchy, const Children& children, const Eigen::Isometry3d& motion) {
-  Children agree;
+  std::map<NodeId, std::pair<double, const MovedObject*>> nearest;
   for (const MovedObject* child : children) {
     const Eigen::Vector3d centre = centreOf(hierarchy, child->node);
-    if ((motion * centre - child->registration.motion * centre).norm() < kOneMotion) agree.push_back(child);
+    const double off = (motion * centre - child->registration.motion * centre).norm();
+    if (off >= kOneMotion) continue;
+    const auto [found, is_new] = nearest.try_emplace(child->node, off, child);
+    if (!is_new && off < found->second.first) found->second = {off, child};
   }
+  Children agree;
+  for (const auto& [id, child] : nearest) agree.push_back(child.second);
   return agree;
 }
 
@@ -112,8 +117,12 @@ std::vector<MovedCarrier> findMovedCarriers(const MapHierarchy& hierarchy,
     if (at_rest < kLeastContradicted) continue;
     MovedCarrier best{carrier, Eigen::Isometry3d::Identity(), 0.0};
     double least = kLessContradicted * at_rest;
+    std::size_t most = 0;
+    for (const MovedObject* child : children)
+      most = std::max(most, followers(hierarchy, children, child->registration.motion).size());
     for (const MovedObject* child : children) {
       const Children agree = followers(hierarchy, children, child->registration.motion);
+      if (agree.size() < most) continue;
       const Eigen::Isometry3d motion = jointMotion(hierarchy, agree, child->registration.motion);
       const double contradicted = contradictedShare(surface, motion, sight);
       if (contradicted >= least) continue;

@@ -17,8 +17,9 @@ struct MovedCarrier {
 
 /// Finds nodes that moved with their children (III-D: a table carries its objects). A plane slides along
 /// itself, so its children say how it moved: all of them that this scan shows are elsewhere, by one motion,
-/// and with that motion the scan contradicts less of the carrier's surface than without.
-/// @param objects  what `findMovedObjects` has found in this scan
+/// and with that motion the scan contradicts less of the carrier's surface than without. Which of several
+/// look-alikes is which does not matter: only one motion takes all of them to their places.
+/// @param objects  candidates of `findMovedObjects`
 /// @param support  evidence by node, from the whole scan
 [[nodiscard]] std::vector<MovedCarrier> findMovedCarriers(const MapHierarchy& hierarchy,
                                                           std::span<const MovedObject> objects,

@@ -9,6 +9,7 @@
 #include <memory>
 
 #include "BeamTraces.h"
+#include "hoctomap/existence/ScanShift.h"
 #include "SurfaceRegistration.h"
 
 namespace hoctomap {
@@ -19,19 +20,27 @@ namespace {
 struct DoubtfulNode {
   NodeId id;
   bool contradicted = false;
+  Eigen::Vector3d common_shift;  ///< m, by which the scan shows other nodes off their places
   PointCloud world_voxels;
 };
 
 std::vector<DoubtfulNode> doubtfulNodes(const MapHierarchy& hierarchy,
                                         std::span<const SegmentInQuestion> segments,
-                                        const std::map<NodeId, Evidence>& support, double most_present) {
+                                        const std::map<NodeId, Evidence>& support,
+                                        const ReidentificationConfig& config) {
   std::vector<DoubtfulNode> doubtful;
   for (const auto& [id, evidence] : support) {
-    if (!evidence.informative || evidence.presentShare() >= most_present) continue;
+    if (!evidence.informative) continue;
+    const auto common = commonShift(hierarchy, support, id, config.most_present);
+    // Beams may end on a node that has moved by little as they would with an error of the pose; but that
+    // error is the same for all.
+    const bool is_off = common && (evidence.shift - *common).norm() > 0.5 * config.least_shift;
+    if (evidence.presentShare() >= config.most_present && !is_off) continue;
     const Label& label = hierarchy.node(id).label();
     if (std::none_of(segments.begin(), segments.end(), [&](const auto& s) { return s.label == label; }))
       continue;
-    DoubtfulNode node{id, evidence.contradicts(), worldSurface(hierarchy, id)};
+    DoubtfulNode node{id, evidence.contradicts(), common.value_or(Eigen::Vector3d::Zero()),
+                      worldSurface(hierarchy, id)};
     doubtful.push_back(std::move(node));
   }
   return doubtful;
@@ -81,6 +90,7 @@ class Finder {
       }
     }
     for (const Fit& fit : fits) {
+      result.candidates.push_back({doubtful[fit.node].id, fit.segment, fit.registration});
       if (hasRival(fit, fits, config_.rival_score)) {
         result.ambiguous.push_back(sentence(doubtful[fit.node], segments[fit.segment],
                                             "is one of several that may be", fit.registration));
@@ -188,16 +198,23 @@ class Finder {
   [[nodiscard]] bool hasMoved(const Registration& r, const DoubtfulNode& node,
                               const SegmentInQuestion& segment) const {
     constexpr std::size_t kSample = 200;
-    const Eigen::Isometry3f motion = r.motion.cast<float>();
+    const Eigen::Isometry3d motion = Eigen::Translation3d(-node.common_shift) * r.motion;
     double sum = 0.0;
+    double up = 0.0;
     std::size_t asked = 0;
     const PointCloud& voxels = node.world_voxels;
     for (std::size_t i = 0; i < voxels.size();
-         i += std::max<std::size_t>(1, voxels.size() / kSample), ++asked)
-      sum += static_cast<double>((motion * voxels[i] - voxels[i]).norm());
+         i += std::max<std::size_t>(1, voxels.size() / kSample), ++asked) {
+      const Eigen::Vector3d p = voxels[i].cast<double>();
+      const Eigen::Vector3d moved = motion * p - p;
+      sum += moved.norm();
+      up += moved.z();
+    }
     const double least_shift = std::max(config_.least_shift, hierarchy_.node(node.id).map().resolution());
     if (sum < least_shift * static_cast<double>(asked)) return false;
     if (!segment.node) return true;
+    // Within its place it still stands on what it stood on.
+    if (std::abs(up) > config_.registration.near * static_cast<double>(asked)) return false;
     constexpr double kMisfitLeft = 1.0 / 3.0;
     // Where most beams still end on the node, its views may just differ.
     return r.score >= r.rest_score + config_.least_gain &&
@@ -239,7 +256,7 @@ MovedObjects findMovedObjects(const MapHierarchy& hierarchy, const Eigen::Vector
                               const std::map<NodeId, Evidence>& support,
                               const ReidentificationConfig& config) {
   if (!config.enabled || segments.empty()) return {};
-  const auto doubtful = doubtfulNodes(hierarchy, segments, support, config.most_present);
+  const auto doubtful = doubtfulNodes(hierarchy, segments, support, config);
   if (doubtful.empty()) return {};
   return Finder(hierarchy, origin, sight, config).find(segments, doubtful);
 }

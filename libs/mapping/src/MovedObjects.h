@@ -30,6 +30,7 @@ struct MovedObject {
 
 struct MovedObjects {
   std::vector<MovedObject> found;
+  std::vector<MovedObject> candidates;  ///< all that fit, look-alikes too
   std::vector<std::string>
       ambiguous;  ///< one sentence for each segment that could be a node and was not taken
 };

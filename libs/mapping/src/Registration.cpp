@@ -3,12 +3,11 @@
 
 #include <algorithm>
 #include <cmath>
-#include <map>
 #include <numbers>
-#include <string>
 #include <vector>
 
 #include "ClosestPoints.h"
+#include "MotionJudge.h"
 #include "SurfaceRegistration.h"
 
 namespace hoctomap {
@@ -28,11 +27,10 @@ class Registrar {
   Registrar(const RegistrationSurface& model, const RegistrationSurface& seen,
             const RegistrationConfig& config, const RegistrationSight& sight)
       : config_(config),
-        sight_(sight),
-        near_(static_cast<float>(config.near + config.tolerance)),
         model_(model),
         seen_(seen),
-        points_(model, seen, sight) {}
+        points_(model, seen, sight),
+        judge_(model, seen, points_, config, sight) {}
 
   [[nodiscard]] Registration best() const {
     if (model_.size() < kLeastPoints || seen_.size() < kLeastPoints) {
@@ -40,13 +38,13 @@ class Registrar {
       none.verdict = Match::ambiguous;  // too few points to say anything
       return none;
     }
-    Registration rest = judged(points_.atRest(), kJudgedPoints);
+    Registration rest = judge_.judged(points_.atRest(), kJudgedPoints);
     rest.rest_score = rest.score;
     if (rest.score >= config_.at_rest) return rest;
     std::vector<Registration> candidates;
     for (const Eigen::Isometry3f& start : coarseMotions()) {
-      candidates.push_back(
-          judged(points_.refined(start, 8, near_, Freedom::yaw_and_shift, kFinePoints), kJudgedPoints));
+      candidates.push_back(judge_.judged(
+          points_.refined(start, 8, judge_.near(), Freedom::yaw_and_shift, kFinePoints), kJudgedPoints));
     }
     if (candidates.empty()) {  // nowhere near at any turn
       rest.verdict = Match::different;
@@ -87,11 +85,12 @@ class Registrar {
 
   /// All points, and six degrees of freedom if they explain more.
   [[nodiscard]] Registration polished(const Registration& start) const {
-    const Eigen::Isometry3f from = toLocal(start.motion);
-    Registration best = judged(from, seen_.size() + model_.size());
+    const Eigen::Isometry3f from = judge_.toLocal(start.motion);
+    Registration best = judge_.judged(from, seen_.size() + model_.size());
     for (const Freedom freedom : {Freedom::yaw_and_shift, Freedom::rigid}) {
-      const Registration r = judged(points_.refined(toLocal(best.motion), 8, near_, freedom, 2 * kFinePoints),
-                                    seen_.size() + model_.size());
+      const Registration r = judge_.judged(
+          points_.refined(judge_.toLocal(best.motion), 8, judge_.near(), freedom, 2 * kFinePoints),
+          seen_.size() + model_.size());
       if (!fitsWorse(r, best)) best = r;
     }
     return best;
@@ -108,7 +107,7 @@ class Registrar {
       std::stable_sort(starts.begin(), starts.end(),
                        [](const Start& a, const Start& b) { return a.distance < b.distance; });
     };
-    const float far = 3.0F * near_;
+    const float far = 3.0F * judge_.near();
     std::vector<Start> starts;
     for (int k = 0; k < config_.yaw_starts; ++k) {
       Eigen::Isometry3f motion =
@@ -142,118 +141,11 @@ class Registrar {
            turn((a.inverse() * b).cast<double>()) < kTurn;
   }
 
-  [[nodiscard]] Registration judged(const Eigen::Isometry3f& motion, std::size_t samples) const {
-    Registration r;
-    r.motion = toWorld(motion);
-    double squares = 0.0;
-    std::size_t pairs = 0;
-
-    const Eigen::Isometry3f back = motion.inverse();
-    std::size_t seen_asked = 0;
-    std::size_t seen_near = 0;
-    std::size_t new_sides = 0;
-    for (std::size_t i = 0; i < seen_.size(); i += stride(seen_, samples)) {
-      ++seen_asked;
-      const Eigen::Vector3f before = back * seen_.points()[i];
-      const auto p = model_.nearest(before, near_);
-      if (!p) {
-        new_sides += isNewSide(i, back) ? 1U : 0U;
-        continue;
-      }
-      ++seen_near;
-      squares += static_cast<double>(p->squared_distance);
-      ++pairs;
-    }
-    std::size_t model_asked = 0;
-    std::size_t model_near = 0;
-    std::size_t model_missed = 0;
-    std::size_t model_through = 0;
-    for (std::size_t i = 0; i < model_.size(); i += stride(model_, samples)) {
-      ++model_asked;
-      const Eigen::Vector3f p = motion * model_.points()[i];
-      if (const auto q = seen_.nearest(p, near_)) {
-        ++model_near;
-        squares += static_cast<double>(q->squared_distance);
-        ++pairs;
-        continue;
-      }
-      const Sight sight = sightOf(i, motion);
-      if (sight == Sight::hidden) continue;
-      ++model_missed;
-      if (sight == Sight::seen_through) ++model_through;
-    }
-    const std::size_t visible = model_near + model_missed;
-    r.overlap_seen = share(seen_near, seen_asked - new_sides);
-    r.overlap_model = share(model_near, visible);
-    r.seen_through = share(model_through, visible);
-    r.rms = pairs == 0 ? 0.0 : std::sqrt(squares / static_cast<double>(pairs));
-    r.score = std::min(r.overlap_model, r.overlap_seen);
-    r.explained = share(seen_near, seen_asked);
-    r.outline_error = points_.outlineError(motion, 2.0F * near_);
-    r.verdict = verdict(r, share(visible, model_asked), heightError(motion));
-    return r;
-  }
-
-  /// Whether a seen point faces a way that nothing of the model does.
-  [[nodiscard]] bool isNewSide(std::size_t seen, const Eigen::Isometry3f& back) const {
-    if (!model_.isOriented() || seen_.facing(seen) == 0) return false;
-    return !model_.hasSide(static_cast<float>(seen_.facing(seen)) * (back.linear() * seen_.normal(seen)));
-  }
-
-  /// What the scan says of a point of the model.
-  [[nodiscard]] Sight sightOf(std::size_t model, const Eigen::Isometry3f& motion) const {
-    const Eigen::Vector3f p = motion * model_.points()[model] + seen_.origin();
-    if (sight_.origin && model_.facing(model) != 0) {
-      const Eigen::Vector3f to_sensor = sight_.origin->cast<float>() - p;
-      const Eigen::Vector3f normal = motion.linear() * model_.normal(model);
-      if (static_cast<float>(model_.facing(model)) * normal.dot(to_sensor) < 0.0F) return Sight::hidden;
-    }
-    return sight_.now ? sight_.now(p) : Sight::surface;
-  }
-
-  /// Difference of the tops, m.
-  [[nodiscard]] double heightError(const Eigen::Isometry3f& motion) const {
-    float highest = -std::numeric_limits<float>::infinity();
-    for (const auto& p : model_.points()) highest = std::max(highest, (motion * p).z());
-    return static_cast<double>(std::abs(highest - seen_.highest()));
-  }
-
-  [[nodiscard]] Match verdict(const Registration& r, double visible, double height_error) const {
-    const double least = std::min(r.overlap_model, r.overlap_seen);
-    if (r.overlap_seen < config_.different_overlap || least < config_.least_overlap) return Match::different;
-    const bool same = least >= config_.same_overlap && r.explained >= config_.least_explained &&
-                      r.rms <= config_.max_rms + config_.tolerance &&
-                      height_error <= config_.max_height_error + config_.tolerance &&
-                      visible >= config_.min_visible && r.seen_through <= config_.max_seen_through;
-    return same ? Match::same : Match::ambiguous;
-  }
-
-  static std::size_t stride(const RegistrationSurface& surface, std::size_t samples) {
-    return std::max<std::size_t>(1, surface.size() / samples);
-  }
-  static double share(std::size_t part, std::size_t whole) {
-    return whole == 0 ? 0.0 : static_cast<double>(part) / static_cast<double>(whole);
-  }
-
-  /// From motions of the surfaces about their origins to those of the world, and back.
-  [[nodiscard]] Eigen::Isometry3d toWorld(const Eigen::Isometry3f& motion) const {
-    Eigen::Isometry3d m = motion.cast<double>();
-    m.linear() = Eigen::Quaterniond(m.linear()).normalized().toRotationMatrix();
-    return Eigen::Translation3d(seen_.origin().cast<double>()) * m *
-           Eigen::Translation3d(-model_.origin().cast<double>());
-  }
-  [[nodiscard]] Eigen::Isometry3f toLocal(const Eigen::Isometry3d& motion) const {
-    const Eigen::Isometry3d m = Eigen::Translation3d(-seen_.origin().cast<double>()) * motion *
-                                Eigen::Translation3d(model_.origin().cast<double>());
-    return m.cast<float>();
-  }
-
   const RegistrationConfig& config_;
-  const RegistrationSight& sight_;
-  float near_;
   const RegistrationSurface& model_;
   const RegistrationSurface& seen_;
   ClosestPoints points_;
+  MotionJudge judge_;
 };
 
 }  // namespace

@@ -17,6 +17,9 @@ struct Evidence {
   std::uint32_t occluded = 0;  ///< they end before it
   bool informative = false;    ///< enough beams to say anything; otherwise P(n | z_t) = P(n)
   double p_measurement = 0.5;  ///< P(n | z_t)
+  /// m in the world: how far off the node the beams are that fit it best. An error of the scan's pose shifts
+  /// all that it shows; what is shifted otherwise has moved.
+  Eigen::Vector3d shift = Eigen::Vector3d::Zero();
 
   /// Share of the beams that reach the node's place that end on the node; 0 if none do.
   [[nodiscard]] double presentShare() const {
@@ -26,16 +29,25 @@ struct Evidence {
   [[nodiscard]] bool contradicts() const { return informative && 2 * present < present + absent; }
 };
 
+/// A node that a measurement is asked about.
+struct NodeInQuestion {
+  NodeId id;
+  ExistenceParameters parameters;
+  /// All that is in its map was measured from the place where the sensor is now: no error of poses lies
+  /// between.
+  bool same_view = false;
+};
+
 /// P(n | z_t), specific to the sensor and the segmentation (Section III-D).
 class InverseExistenceModel {
  public:
   virtual ~InverseExistenceModel() = default;
 
   /// Evidence for each of `nodes`, in their order, from the whole measurement, taken before anything of it is
-  /// integrated. `parameters[i]` belong to `nodes[i]`.
-  [[nodiscard]] virtual std::vector<Evidence> evidence(
-      const MapHierarchy& hierarchy, const Measurement& measurement, const std::vector<NodeId>& nodes,
-      const std::vector<ExistenceParameters>& parameters) const = 0;
+  /// integrated.
+  [[nodiscard]] virtual std::vector<Evidence> evidence(const MapHierarchy& hierarchy,
+                                                       const Measurement& measurement,
+                                                       const std::vector<NodeInQuestion>& nodes) const = 0;
 
   /// Box in the world that a node must meet to get any evidence from this measurement: so that the work grows
   /// with the nodes in view and not with all nodes.

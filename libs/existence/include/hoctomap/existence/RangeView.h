@@ -25,6 +25,9 @@ class RangeView {
   /// Where a point in the world is seen; nothing if it lies behind the sensor. May lie outside the image.
   [[nodiscard]] std::optional<Pixel> project(const Eigen::Vector3f& world_point) const;
 
+  /// The point in the world that is seen there at this range, m.
+  [[nodiscard]] Eigen::Vector3f worldPoint(const Pixel& pixel) const;
+
   /// False only if no point of the box is seen inside the image, at a range of at most `range`.
   [[nodiscard]] bool mayShow(const Obb& box, double range) const;
 

@@ -13,6 +13,7 @@
 #include "hoctomap/hierarchy/Label.h"
 #include "hoctomap/hierarchy/MapNode.h"
 #include "hoctomap/hierarchy/NodeId.h"
+#include "hoctomap/mapping/StillSensor.h"
 #include "hoctomap/octree/NodeMap.h"
 
 namespace hoctomap {
@@ -71,8 +72,9 @@ struct Manifest {
   FileRecord existence;
   std::optional<FileRecord> seams;  ///< votes on where objects meet (SeamVotes), for a run that goes on
   std::optional<FileRecord> scene;
-  std::vector<NodeRecord> nodes;    ///< parents before children, siblings by id
-  std::vector<NodeRecord> removed;  ///< by id; their files stay in `nodes/`
+  std::optional<StillSensor> sensor;  ///< of the last scan, for a run that goes on
+  std::vector<NodeRecord> nodes;      ///< parents before children, siblings by id
+  std::vector<NodeRecord> removed;    ///< by id; their files stay in `nodes/`
   std::vector<NodeRecord> waiting;  ///< for confirmation, by id: part of the map only for a run that goes on
   /// Not in the file: nodes of a kept state that entered `nodes` when it was read, as at the end of a log.
   std::vector<NodeId> let_in_at_end;

@@ -39,6 +39,7 @@ struct MapState {
   bool keep = false;                     ///< keep this state for good, as `hierarchy-NNNNNN.yaml` (last scan)
   double last_stamp = 0.0;               ///< of the last scan, s since 1970
   const SeamVotes* seams = nullptr;      ///< `HierarchyMapper::seams()`
+  std::optional<StillSensor> sensor{};   ///< `HierarchyMapper::sensor()`
 };
 
 /// One row of `timing.csv`: the scan's wall seconds.

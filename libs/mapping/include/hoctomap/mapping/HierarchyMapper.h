@@ -3,6 +3,7 @@
 
 #include <map>
 #include <memory>
+#include <optional>
 #include <set>
 #include <string>
 #include <vector>
@@ -17,6 +18,7 @@
 #include "hoctomap/mapping/Reidentification.h"
 #include "hoctomap/mapping/SeamVotes.h"
 #include "hoctomap/mapping/Segmentation.h"
+#include "hoctomap/mapping/StillSensor.h"
 #include "hoctomap/mapping/UpdateReport.h"
 
 namespace hoctomap {
@@ -54,7 +56,8 @@ class HierarchyMapper {
 
   /// Continues an existing hierarchy.
   HierarchyMapper(MappingConfig config, LabelProfiles profiles, MappingStrategies strategies,
-                  MapHierarchy hierarchy, SeamVotes seams = {});
+                  MapHierarchy hierarchy, SeamVotes seams = {},
+                  std::optional<StillSensor> sensor = std::nullopt);
 
   /// Integrates one measurement.
   UpdateReport integrate(const Measurement& z) { return integrate(z, prepare(z)); }
@@ -77,6 +80,8 @@ class HierarchyMapper {
   [[nodiscard]] const MapHierarchy& hierarchy() const { return hierarchy_; }
   /// What the scans say of where objects meet; belongs to the state of a map that is gone on with.
   [[nodiscard]] const SeamVotes& seams() const { return seams_; }
+  /// The sensor of the last scan; belongs to that state as well. None before the first scan.
+  [[nodiscard]] const std::optional<StillSensor>& sensor() const { return sensor_; }
   /// Nodes that were removed since the construction of the mapper, in order, with the world pose they had.
   [[nodiscard]] const std::vector<RemovedNode>& removed() const { return removed_; }
 
@@ -136,6 +141,7 @@ class HierarchyMapper {
   MapHierarchy hierarchy_;
   std::vector<RemovedNode> removed_;
   SeamVotes seams_;
+  std::optional<StillSensor> sensor_;
   std::set<NodeId> waiting_;  ///< nodes that wait for confirmation
 };
 
