@@ -1,0 +1,83 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "NodeRegions.h"
+
+#include <algorithm>
+
+#include "SurfacePoints.h"
+
+namespace hoctomap {
+
+namespace {
+
+using Region = SurfaceRegions::Region;
+
+/// Whether none of the cells around one is in a region.
+bool isAwayFrom(const SurfaceRegions& regions, const SeamVotes::Cell& c, Region region) {
+  for (int step = 0; step < 27; ++step) {
+    if (regions.at(SeamVotes::Cell{c.x + step / 9 - 1, c.y + step / 3 % 3 - 1, c.z + step % 3 - 1}) == region)
+      return false;
+  }
+  return true;
+}
+
+}  // namespace
+
+NodeRegions::NodeRegions(const MapHierarchy& hierarchy, std::span<const NodeId> nodes,
+                         const SurfaceRegions& regions) {
+  for (const NodeId id : nodes) {
+    std::map<Region, std::vector<SeamVotes::Cell>> cells;
+    for (const SeamVotes::Cell& cell : SeamVotes::cellsOf(worldSurface(hierarchy, id))) {
+      if (const auto region = regions.at(cell)) cells[*region].push_back(cell);
+    }
+    if (cells.empty()) continue;
+    Held& held = held_[id];
+    held.main = std::max_element(cells.begin(), cells.end(), [](const auto& a, const auto& b) {
+                  return a.second.size() < b.second.size();
+                })->first;
+    for (const auto& [region, in_region] : cells) {
+      if (region == *held.main) continue;
+      const auto away = std::count_if(in_region.begin(), in_region.end(), [&](const auto& cell) {
+        return isAwayFrom(regions, cell, *held.main);
+      });
+      if (2 * static_cast<std::size_t>(away) >= kFragmentCells) held.others.insert(region);
+    }
+  }
+}
+
+std::vector<NodeId> NodeRegions::nodes() const {
+  std::vector<NodeId> nodes;
+  for (const auto& [id, held] : held_) nodes.push_back(id);
+  return nodes;
+}
+
+std::optional<Region> NodeRegions::mainOf(NodeId node) const {
+  const auto found = held_.find(node);
+  return found == held_.end() ? std::nullopt : found->second.main;
+}
+
+std::vector<NodeId> NodeRegions::ownersOf(Region region) const {
+  std::vector<NodeId> owners;
+  for (const auto& [id, held] : held_) {
+    if (held.main == region) owners.push_back(id);
+  }
+  return owners;
+}
+
+std::set<Region> NodeRegions::othersOf(NodeId node) const {
+  const auto found = held_.find(node);
+  return found == held_.end() ? std::set<Region>{} : found->second.others;
+}
+
+void NodeRegions::merge(NodeId whole, NodeId piece) {
+  const Held gone = held_[piece];
+  held_.erase(piece);
+  held_[whole].others.insert(gone.others.begin(), gone.others.end());
+}
+
+void NodeRegions::give(NodeId from, NodeId to, Region region) {
+  held_[from].others.erase(region);
+  Held& taker = held_[to];
+  if (!taker.main) taker.main = region;
+}
+
+}  // namespace hoctomap
