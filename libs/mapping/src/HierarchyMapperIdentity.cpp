@@ -24,25 +24,35 @@ double shareInside(const PointCloud& world_points, const Obb& box) {
   return static_cast<double>(inside) / static_cast<double>(std::max<std::size_t>(1, world_points.size()));
 }
 
-/// The region of every point of a segment. Points without one, and those in scraps that are no node's, go with
-/// most of the segment.
-std::vector<std::optional<Region>> regionsOf(const PointCloud& world_points, const SurfaceRegions& regions,
-                                             const NodeRegions& held) {
+/// The regions of a segment, point by point.
+struct SegmentRegions {
   std::vector<std::optional<Region>> of_point;
+  std::optional<Region> most;  ///< that has most of the points
+};
+
+/// Points without a region, and those in scraps or apart from the rest that are no node's, go with most of the
+/// segment.
+SegmentRegions regionsOf(const PointCloud& world_points, const SurfaceRegions& regions,
+                         const NodeRegions& held) {
+  SegmentRegions found;
   std::map<Region, std::size_t> points;
-  of_point.reserve(world_points.size());
+  found.of_point.reserve(world_points.size());
   for (const auto& p : world_points) {
-    of_point.push_back(regions.at(SeamVotes::cellOf(p)));
-    if (of_point.back()) ++points[*of_point.back()];
+    found.of_point.push_back(regions.at(SeamVotes::cellOf(p)));
+    if (found.of_point.back()) ++points[*found.of_point.back()];
   }
-  if (points.empty()) return of_point;
+  if (points.empty()) return found;
   const Region most = std::max_element(points.begin(), points.end(), [](const auto& a, const auto& b) {
                         return a.second < b.second;
                       })->first;
-  for (auto& region : of_point) {
-    if (!region || (regions.size(*region) < kFragmentCells && held.ownersOf(*region).empty())) region = most;
+  found.most = most;
+  std::map<Region, Region> goes_to;
+  for (const auto& [region, n] : points) {
+    const bool has_seam = regions.size(region) >= kFragmentCells && regions.meet(region, most);
+    goes_to[region] = has_seam || held.isHeld(region) ? region : most;
   }
-  return of_point;
+  for (auto& region : found.of_point) region = region ? goes_to.at(*region) : most;
+  return found;
 }
 
 }  // namespace
@@ -151,18 +161,20 @@ void HierarchyMapper::divideSegments(const SurfaceRegions& regions, const NodeRe
     std::map<std::size_t, std::size_t> segments;
   };
   std::map<Region, Share> shares;
+  std::map<std::size_t, Region> most_of_segment;
   std::vector<LabelledPart> settled;
   for (std::size_t s = 0; s < parts.size(); ++s) {
     LabelledPart& part = parts[s];
-    const auto of_point = part.structure == Structure::cluster && !part.moved_node
-                              ? regionsOf(part.world_points, regions, held)
-                              : std::vector<std::optional<Region>>{};
-    if (of_point.empty() || !of_point.front()) {
+    const bool follows = part.structure == Structure::cluster && !part.moved_node;
+    const SegmentRegions found =
+        follows ? regionsOf(part.world_points, regions, held) : SegmentRegions{};
+    if (!found.most) {
       settled.push_back(part);
       continue;
     }
-    for (std::size_t i = 0; i < of_point.size(); ++i) {
-      Share& share = shares[*of_point[i]];
+    most_of_segment[s] = *found.most;
+    for (std::size_t i = 0; i < found.of_point.size(); ++i) {
+      Share& share = shares[*found.of_point[i]];
       share.points.emplace(part.points[i], part.world_points[i]);
       ++share.segments[s];
     }
@@ -181,6 +193,10 @@ void HierarchyMapper::divideSegments(const SurfaceRegions& regions, const NodeRe
     part.moved_node = nodeOf(region, part, regions, held, near);
     part.is_new = !part.moved_node;
     if (part.moved_node) part.label = hierarchy_.node(*part.moved_node).label();
+    // What this scan has not shown by itself is not confirmed by it.
+    const Region most = most_of_segment.at(segment);
+    const auto owners = held.ownersOf(most);
+    if (most != region && !owners.empty()) part.joined_with = owners.front();
     settled.push_back(std::move(part));
   }
   parts = std::move(settled);

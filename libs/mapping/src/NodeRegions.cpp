@@ -63,6 +63,12 @@ std::vector<NodeId> NodeRegions::ownersOf(Region region) const {
   return owners;
 }
 
+bool NodeRegions::isHeld(Region region) const {
+  return std::any_of(held_.begin(), held_.end(), [region](const auto& entry) {
+    return entry.second.main == region || entry.second.others.contains(region);
+  });
+}
+
 std::set<Region> NodeRegions::othersOf(NodeId node) const {
   const auto found = held_.find(node);
   return found == held_.end() ? std::set<Region>{} : found->second.others;

@@ -24,6 +24,8 @@ class NodeRegions {
   [[nodiscard]] std::optional<Region> mainOf(NodeId node) const;
   /// Nodes whose main region it is, by id.
   [[nodiscard]] std::vector<NodeId> ownersOf(Region region) const;
+  /// Whether some node holds it.
+  [[nodiscard]] bool isHeld(Region region) const;
   /// Regions beside its main one that a node holds.
   [[nodiscard]] std::set<Region> othersOf(NodeId node) const;
 

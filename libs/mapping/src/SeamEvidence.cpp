@@ -32,13 +32,13 @@ int seamEvidence(Passage passage, bool cut) {
     case Passage::smooth:
       return cut ? 0 : -2;
     case Passage::convex:
-      return cut ? 2 : -2;
+      return cut ? 2 : -1;
     case Passage::vague:
       return cut ? 3 : -1;
     case Passage::concave:
       return cut ? 5 : 0;
     case Passage::step:
-      return cut ? 6 : 0;
+      return cut ? 6 : 2;
   }
   return 0;
 }
