@@ -38,7 +38,7 @@ int seamEvidence(Passage passage, bool cut) {
     case Passage::concave:
       return cut ? 5 : 0;
     case Passage::step:
-      return cut ? 6 : 2;
+      return cut ? 6 : 0;
   }
   return 0;
 }
