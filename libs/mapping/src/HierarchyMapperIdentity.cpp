@@ -31,25 +31,34 @@ struct SegmentRegions {
 };
 
 /// Points without a region, and those in scraps or apart from the rest that are no node's, go with most of the
-/// segment.
+/// segment. So do those that reach into another region by the cells along the seam only: S knows it to the pixel.
 SegmentRegions regionsOf(const PointCloud& world_points, const SurfaceRegions& regions,
                          const NodeRegions& held) {
   SegmentRegions found;
+  std::map<SeamVotes::Cell, std::size_t> cells;
   std::map<Region, std::size_t> points;
   found.of_point.reserve(world_points.size());
   for (const auto& p : world_points) {
-    found.of_point.push_back(regions.at(SeamVotes::cellOf(p)));
-    if (found.of_point.back()) ++points[*found.of_point.back()];
+    const SeamVotes::Cell cell = SeamVotes::cellOf(p);
+    found.of_point.push_back(regions.at(cell));
+    if (!found.of_point.back()) continue;
+    ++points[*found.of_point.back()];
+    ++cells[cell];
   }
   if (points.empty()) return found;
   const Region most = std::max_element(points.begin(), points.end(), [](const auto& a, const auto& b) {
                         return a.second < b.second;
                       })->first;
   found.most = most;
+  std::map<Region, std::size_t> along_seam;
+  for (const auto& [cell, n] : cells) {
+    if (regions.isBeside(cell, most)) along_seam[*regions.at(cell)] += n;
+  }
   std::map<Region, Region> goes_to;
   for (const auto& [region, n] : points) {
     const bool has_seam = regions.size(region) >= kFragmentCells && regions.meet(region, most);
-    goes_to[region] = has_seam || held.isHeld(region) ? region : most;
+    const bool is_spill = 4 * along_seam[region] > 3 * n;
+    goes_to[region] = !is_spill && (has_seam || held.isHeld(region)) ? region : most;
   }
   for (auto& region : found.of_point) region = region ? goes_to.at(*region) : most;
   return found;

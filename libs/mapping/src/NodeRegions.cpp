@@ -11,15 +11,6 @@ namespace {
 
 using Region = SurfaceRegions::Region;
 
-/// Whether none of the cells around one is in a region.
-bool isAwayFrom(const SurfaceRegions& regions, const SeamVotes::Cell& c, Region region) {
-  for (int step = 0; step < 27; ++step) {
-    if (regions.at(SeamVotes::Cell{c.x + step / 9 - 1, c.y + step / 3 % 3 - 1, c.z + step % 3 - 1}) == region)
-      return false;
-  }
-  return true;
-}
-
 }  // namespace
 
 NodeRegions::NodeRegions(const MapHierarchy& hierarchy, std::span<const NodeId> nodes,
@@ -37,7 +28,7 @@ NodeRegions::NodeRegions(const MapHierarchy& hierarchy, std::span<const NodeId> 
     for (const auto& [region, in_region] : cells) {
       if (region == *held.main) continue;
       const auto away = std::count_if(in_region.begin(), in_region.end(), [&](const auto& cell) {
-        return isAwayFrom(regions, cell, *held.main);
+        return !regions.isBeside(cell, *held.main);
       });
       if (2 * static_cast<std::size_t>(away) >= kFragmentCells) held.others.insert(region);
     }

@@ -263,4 +263,11 @@ std::optional<SurfaceRegions::Region> SurfaceRegions::at(const SeamVotes::Cell& 
   return found == region_of_cell_.end() ? std::nullopt : std::optional(found->second);
 }
 
+bool SurfaceRegions::isBeside(const SeamVotes::Cell& c, Region region) const {
+  for (int step = 0; step < 27; ++step) {
+    if (at({c.x + step / 9 - 1, c.y + step / 3 % 3 - 1, c.z + step % 3 - 1}) == region) return true;
+  }
+  return false;
+}
+
 }  // namespace hoctomap

@@ -23,6 +23,8 @@ class SurfaceRegions {
   SurfaceRegions(const SeamVotes& votes, const SeamVotes::Cells& seeds);
 
   [[nodiscard]] std::optional<Region> at(const SeamVotes::Cell& cell) const;
+  /// Whether a cell around this one, or this one, is in a region.
+  [[nodiscard]] bool isBeside(const SeamVotes::Cell& cell, Region region) const;
   [[nodiscard]] std::size_t count() const { return sizes_.size(); }
   /// Number of cells.
   [[nodiscard]] std::size_t size(Region region) const { return sizes_[region]; }
