@@ -2,6 +2,8 @@
 #include "SeamsFile.h"
 
 #include <charconv>
+#include <limits>
+#include <optional>
 #include <string_view>
 
 #include "hoctomap/geometry/Errors.h"
@@ -9,30 +11,43 @@
 namespace hoctomap {
 namespace {
 
-constexpr std::string_view kHeader =
-    "x,y,z,shown,cut0,cut1,cut2,cut3,cut4,cut5,cut6,cut7,cut8,cut9,cut10,cut11,cut12\n";
+std::string header() {
+  std::string text = "x,y,z";
+  for (std::size_t d = 0; d < SeamVotes::kDirections; ++d) text += ",e" + std::to_string(d);
+  return text + '\n';
+}
 
-/// Reads one number and the separator behind it.
-template <typename Number>
-Number take(std::string_view& row, char separator, const std::string& where) {
-  Number number{};
-  const auto [end, error] = std::from_chars(row.data(), row.data() + row.size(), number);
-  const auto length = static_cast<std::size_t>(end - row.data());
-  if (error != std::errc() || length >= row.size() || row[length] != separator) {
-    throw MapError(where + ": is no row of seam votes");
+/// Reads one number and the separator behind it; nothing where no number stands.
+std::optional<std::int32_t> take(std::string_view& row, char separator, const std::string& where) {
+  std::optional<std::int32_t> number;
+  std::size_t length = 0;
+  if (!row.empty() && row.front() != separator) {
+    const auto [end, error] = std::from_chars(row.data(), row.data() + row.size(), number.emplace());
+    length = static_cast<std::size_t>(end - row.data());
+    if (error != std::errc()) throw MapError(where + ": is no row of seam votes");
   }
+  if (length >= row.size() || row[length] != separator)
+    throw MapError(where + ": is no row of seam votes");
   row.remove_prefix(length + 1);
   return number;
+}
+
+std::int32_t takeIndex(std::string_view& row, const std::string& where) {
+  const auto index = take(row, ',', where);
+  if (!index) throw MapError(where + ": is no row of seam votes");
+  return *index;
 }
 
 }  // namespace
 
 std::string seamsText(const SeamVotes& seams) {
-  std::string text(kHeader);
+  std::string text = header();
   for (const auto& [cell, votes] : seams.all()) {
-    for (const auto index : {cell.x, cell.y, cell.z}) text += std::to_string(index) + ",";
-    text += std::to_string(votes.shown);
-    for (const auto cut : votes.cut) text += "," + std::to_string(cut);
+    text += std::to_string(cell.x) + "," + std::to_string(cell.y) + "," + std::to_string(cell.z);
+    for (std::size_t d = 0; d < SeamVotes::kDirections; ++d) {
+      text += ',';
+      if (votes.known[d]) text += std::to_string(votes.evidence[d]);
+    }
     text += '\n';
   }
   return text;
@@ -40,19 +55,25 @@ std::string seamsText(const SeamVotes& seams) {
 
 SeamVotes parseSeams(const std::string& text, const std::string& name) {
   std::string_view rest = text;
-  if (!rest.starts_with(kHeader)) throw MapError(name + ":1: is no table of seam votes");
-  rest.remove_prefix(kHeader.size());
+  if (!rest.starts_with(header())) throw MapError(name + ":1: is no table of seam votes");
+  rest.remove_prefix(header().size());
   SeamVotes seams;
   for (std::size_t line = 2; !rest.empty(); ++line) {
     const std::string where = name + ":" + std::to_string(line);
     SeamVotes::Cell cell;
-    cell.x = take<std::int32_t>(rest, ',', where);
-    cell.y = take<std::int32_t>(rest, ',', where);
-    cell.z = take<std::int32_t>(rest, ',', where);
+    cell.x = takeIndex(rest, where);
+    cell.y = takeIndex(rest, where);
+    cell.z = takeIndex(rest, where);
     SeamVotes::Votes votes;
-    votes.shown = take<std::uint16_t>(rest, ',', where);
-    for (std::size_t d = 0; d < votes.cut.size(); ++d)
-      votes.cut[d] = take<std::uint16_t>(rest, d + 1 < votes.cut.size() ? ',' : '\n', where);
+    for (std::size_t d = 0; d < SeamVotes::kDirections; ++d) {
+      const auto evidence = take(rest, d + 1 < SeamVotes::kDirections ? ',' : '\n', where);
+      if (!evidence) continue;
+      if (*evidence < std::numeric_limits<std::int16_t>::min() ||
+          *evidence > std::numeric_limits<std::int16_t>::max())
+        throw MapError(where + ": is no row of seam votes");
+      votes.known.set(d);
+      votes.evidence[d] = static_cast<std::int16_t>(*evidence);
+    }
     seams.set(cell, votes);
   }
   return seams;

@@ -107,10 +107,9 @@ void HierarchyMapper::moveInWorld(NodeId id, const Eigen::Isometry3d& motion) {
 }
 
 void HierarchyMapper::assumeWhole(NodeId id) {
-  constexpr std::uint16_t kScans = 3;  // that what has moved as one counts for
   if (!config_.seam_votes) return;
   if (hierarchy_.node(id).label() != labels::table)
-    seams_.assume(SeamVotes::cellsOf(worldSurface(hierarchy_, id)), kScans);
+    seams_.assume(SeamVotes::cellsOf(worldSurface(hierarchy_, id)));
   for (const NodeId child : hierarchy_.node(id).children()) assumeWhole(child);
 }
 
@@ -144,7 +143,7 @@ void HierarchyMapper::mergePieces(const Measurement& z, const std::vector<Labell
 bool HierarchyMapper::meet(NodeId a, NodeId b) const {
   if (!config_.seam_votes) return false;
   const auto cells = [this](NodeId id) { return SeamVotes::cellsOf(worldSurface(hierarchy_, id)); };
-  return seams_.between(cells(a), cells(b)).pairs > 0.0;
+  return seams_.meet(cells(a), cells(b));
 }
 
 void HierarchyMapper::mergeInto(NodeId whole, NodeId piece, std::uint64_t scan, UpdateReport& report) {

@@ -23,7 +23,8 @@ void HierarchyMapper::confirmNodes(const std::vector<LabelledPart>& parts, const
   const std::set<NodeId> waiting = waiting_;  // those that enter leave it
   for (const NodeId id : waiting) {
     Confirmation& confirmation = hierarchy_.node(id).confirmation;
-    if (std::any_of(parts.begin(), parts.end(), [id](const auto& part) { return part.node == id; })) {
+    if (std::any_of(parts.begin(), parts.end(),
+                    [id](const auto& part) { return part.node == id && !part.joined_with; })) {
       if (++confirmation.shown >= config_.confirm_scans) enterMap(id, report);
     } else if (const auto seen = evidence.by_node.find(id); seen != evidence.by_node.end()) {
       confirmation.missed += seen->second.informative ? 1U : 0U;

@@ -1,42 +1,19 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// One object is one node (docs/decisions/0023): segments that bridge nodes are divided or make them one,
-// nodes that scans show to be two objects are split.
+// One object is one node (docs/decisions/0028): nodes follow the regions that the votes of all scans make of
+// the surface, and so do the segments of a scan.
 #include <algorithm>
 #include <utility>
 
 #include "NodeEvidence.h"
-#include "SharedSurfaces.h"
+#include "NodeRegions.h"
+#include "SurfacePoints.h"
+#include "hoctomap/geometry/PcaFrame.h"
 
 namespace hoctomap {
 
 namespace {
 
-/// How many scans that join it takes to outvote one that cuts. S overlooks a seam more often than it makes
-/// one up: of things of like size every third view is right to cut. Small pieces (handles, lids, what shows
-/// behind a rim) are cut off for other reasons, too. @param relative_size  of the smaller of the two to the
-/// larger
-double weightOfCut(double relative_size) {
-  constexpr double kMost = 3.0;
-  return std::min(kMost, 1.0 + 4.0 * relative_size);
-}
-
-double relativeSize(std::size_t a, std::size_t b) {
-  return static_cast<double>(std::min(a, b)) / static_cast<double>(std::max<std::size_t>(1, std::max(a, b)));
-}
-
-/// Whether the scans so far speak for two objects where two sets of cells meet.
-bool areTwo(const SeamVotes& seams, const SeamVotes::Cells& a, const SeamVotes::Cells& b) {
-  const SeamVotes::Verdict v = seams.between(a, b);
-  return weightOfCut(relativeSize(a.size(), b.size())) * v.apart > v.joined;
-}
-
-/// Whether they speak for one; one scan alone never does.
-bool areOne(const SeamVotes& seams, const SeamVotes::Cells& a, const SeamVotes::Cells& b) {
-  constexpr double kLeastScans = 2.0;
-  const SeamVotes::Verdict v = seams.between(a, b);
-  return v.pairs > 0.0 && v.joined > weightOfCut(relativeSize(a.size(), b.size())) * v.apart &&
-         v.joined >= kLeastScans * v.pairs;
-}
+using Region = SurfaceRegions::Region;
 
 /// Share of the points that lie in the box.
 double shareInside(const PointCloud& world_points, const Obb& box) {
@@ -47,99 +24,133 @@ double shareInside(const PointCloud& world_points, const Obb& box) {
   return static_cast<double>(inside) / static_cast<double>(std::max<std::size_t>(1, world_points.size()));
 }
 
-SeamVotes::Cells cellsOf(const MapHierarchy& hierarchy, NodeId id) {
-  return SeamVotes::cellsOf(worldSurface(hierarchy, id));
+/// The regions of a segment, point by point.
+struct SegmentRegions {
+  std::vector<std::optional<Region>> of_point;
+  std::optional<Region> most;  ///< that has most of the points
+};
+
+/// Points without a region, and those in scraps or apart from the rest that are no node's, go with most of the
+/// segment. So do those that reach into another region by the cells along the seam only: S knows it to the pixel.
+SegmentRegions regionsOf(const PointCloud& world_points, const SurfaceRegions& regions,
+                         const NodeRegions& held) {
+  SegmentRegions found;
+  std::map<SeamVotes::Cell, std::size_t> cells;
+  std::map<Region, std::size_t> points;
+  found.of_point.reserve(world_points.size());
+  for (const auto& p : world_points) {
+    const SeamVotes::Cell cell = SeamVotes::cellOf(p);
+    found.of_point.push_back(regions.at(cell));
+    if (!found.of_point.back()) continue;
+    ++points[*found.of_point.back()];
+    ++cells[cell];
+  }
+  if (points.empty()) return found;
+  const Region most = std::max_element(points.begin(), points.end(), [](const auto& a, const auto& b) {
+                        return a.second < b.second;
+                      })->first;
+  found.most = most;
+  std::map<Region, std::size_t> along_seam;
+  for (const auto& [cell, n] : cells) {
+    if (regions.isBeside(cell, most)) along_seam[*regions.at(cell)] += n;
+  }
+  std::map<Region, Region> goes_to;
+  for (const auto& [region, n] : points) {
+    const bool has_seam = regions.size(region) >= kFragmentCells && regions.meet(region, most);
+    const bool is_spill = 4 * along_seam[region] > 3 * n;
+    goes_to[region] = !is_spill && (has_seam || held.isHeld(region)) ? region : most;
+  }
+  for (auto& region : found.of_point) region = region ? goes_to.at(*region) : most;
+  return found;
 }
 
 }  // namespace
 
 void HierarchyMapper::settleIdentity(const Measurement& z, std::vector<LabelledPart>& parts,
                                      const NodeEvidence& evidence, UpdateReport& report) {
-  std::vector<std::size_t> clusters;
   std::vector<const PointCloud*> points;
   std::set<NodeId> near;
-  for (std::size_t i = 0; i < parts.size(); ++i) {
-    if (parts[i].structure != Structure::cluster) continue;
-    clusters.push_back(i);
-    points.push_back(&parts[i].world_points);
-    for (const NodeId id : hierarchy_.idsNear(worldBounds(parts[i].box))) {
-      if (isOfKind(id, parts[i].label) && !evidence.contradicts(id)) near.insert(id);
+  for (const LabelledPart& part : parts) {
+    if (part.structure != Structure::cluster) continue;
+    points.push_back(&part.world_points);
+    for (const NodeId id : hierarchy_.idsNear(worldBounds(part.box))) {
+      if (isOfKind(id, part.label) && !evidence.contradicts(id)) near.insert(id);
     }
   }
-  seams_.add(points);
-  if (near.empty()) return;
-  const SharedSurfaces surfaces(hierarchy_, points, std::vector<NodeId>(near.begin(), near.end()));
-  std::map<NodeId, std::vector<std::size_t>> claims;  // the segments of every node
-  for (std::size_t s = 0; s < clusters.size(); ++s) {
-    LabelledPart& part = parts[clusters[s]];
-    if (part.moved_node) {
-      claims[*part.moved_node].push_back(s);
-    } else if (const auto main = surfaces.mainNode(s); main && isOfKind(*main, part.label)) {
-      part.label = hierarchy_.node(*main).label();
-      claims[*main].push_back(s);
-      part.moved_node = main;
-    } else {
-      const auto by_box =
-          strategies_.association->associate(hierarchy_, {part.label, &part.world_points, part.box},
-                                             [&](NodeId id) { return near.contains(id); });
-      constexpr double kMostly = 0.5;
-      if (by_box && shareInside(part.world_points, hierarchy_.box(*by_box)) > kMostly)
-        part.moved_node = by_box;
-      part.is_new = !part.moved_node;
-    }
-  }
-  for (auto& [id, segments] : claims) {
-    if (segments.size() > 1 && near.contains(id))
-      splitNode(z, id, segments, surfaces, parts, clusters, report);
-  }
-  divideSegments(z, surfaces, parts, clusters, report);
+  if (points.empty()) return;
+  const SurfaceRegions regions(seams_, seams_.add(points, z.origin()));
+  NodeRegions held(hierarchy_, std::vector<NodeId>(near.begin(), near.end()), regions);
+  mergeOwners(z, regions, held, parts, report);
+  splitHolders(z, regions, held, report);
+  divideSegments(regions, held, near, parts);
 }
 
 bool HierarchyMapper::isOfKind(NodeId id, const Label& label) const {
   return strategies_.labeling->areOfOneKind(std::as_const(hierarchy_).node(id).label(), label);
 }
 
-void HierarchyMapper::splitNode(const Measurement& z, NodeId id, std::vector<std::size_t>& segments,
-                                const SharedSurfaces& surfaces, std::vector<LabelledPart>& parts,
-                                const std::vector<std::size_t>& clusters, UpdateReport& report) {
-  // The segment that shows most of it goes on as this node.
-  std::stable_sort(segments.begin(), segments.end(), [&](std::size_t a, std::size_t b) {
-    return parts[clusters[a]].points.size() > parts[clusters[b]].points.size();
-  });
-  const auto places = surfaces.placesOf(id, segments);
-  for (std::size_t k = 1; k < segments.size(); ++k) {
-    PointCloud own;
-    PointCloud other;
-    for (const auto& place : places) {
-      if (!place.segment) continue;
-      if (*place.segment == segments[k]) other.push_back(place.world_point);
-      if (*place.segment == segments[0]) own.push_back(place.world_point);
+void HierarchyMapper::mergeOwners(const Measurement& z, const SurfaceRegions& regions, NodeRegions& held,
+                                  std::vector<LabelledPart>& parts, UpdateReport& report) {
+  const auto size = [&](NodeId n) { return hierarchy_.node(n).map().occupiedVoxels().size(); };
+  for (Region region = 0; region < regions.count(); ++region) {
+    std::vector<NodeId> owners = held.ownersOf(region);
+    // The largest goes on, of equals the oldest.
+    std::stable_sort(owners.begin(), owners.end(), [&](NodeId a, NodeId b) { return size(a) > size(b); });
+    for (std::size_t k = 1; k < owners.size(); ++k) {
+      if (!isOfKind(owners[k], hierarchy_.node(owners[0]).label())) continue;
+      mergeInto(owners[0], owners[k], z.scan, report);
+      held.merge(owners[0], owners[k]);
+      for (LabelledPart& part : parts) {
+        if (part.moved_node == owners[k]) part.moved_node = owners[0];
+      }
     }
-    if (!areTwo(seams_, SeamVotes::cellsOf(own), SeamVotes::cellsOf(other))) continue;
-    splitOff(z, id, own, other, parts[clusters[segments[k]]], report);
   }
 }
 
-void HierarchyMapper::splitOff(const Measurement& z, NodeId id, const PointCloud& own,
-                               const PointCloud& other, LabelledPart& part, UpdateReport& report) {
-  constexpr float kSpacing = 0.004F;
-  constexpr float kReach = 0.05F;
-  const SurfacePoints stays(own, kSpacing);
-  const SurfacePoints goes(other, kSpacing);
-  const Eigen::Isometry3f world_T_node = toIsometry(hierarchy_.world_T_node(id)).cast<float>();
-  const auto isOther = [&](const Eigen::Vector3f& p) {
-    const auto there = goes.nearest(world_T_node * p, kReach);
-    const auto here = stays.nearest(world_T_node * p, kReach);
-    return there && (!here || there->squared_distance < here->squared_distance);
-  };
+void HierarchyMapper::splitHolders(const Measurement& z, const SurfaceRegions& regions, NodeRegions& held,
+                                   UpdateReport& report) {
+  for (Region region = 0; region < regions.count(); ++region) {
+    for (const NodeId id : held.nodes()) {
+      if (!held.othersOf(id).contains(region)) continue;
+      const auto owners = held.ownersOf(region);
+      if (!owners.empty()) {  // a scrap of a neighbour
+        handOver(z, id, owners.front(), region, regions);
+        held.give(id, owners.front(), region);
+      } else if (regions.meet(region, *held.mainOf(id))) {
+        held.give(id, splitOff(z, id, region, regions, report), region);
+      }
+    }
+  }
+}
+
+void HierarchyMapper::handOver(const Measurement& z, NodeId from, NodeId to, std::uint32_t region,
+                               const SurfaceRegions& regions) {
+  const Eigen::Isometry3d world_T_from = toIsometry(hierarchy_.world_T_node(from));
+  const Eigen::Isometry3d world_T_to = toIsometry(hierarchy_.world_T_node(to));
+  const Eigen::Isometry3f world_T_voxels = world_T_from.cast<float>();
+  MapNode& giver = hierarchy_.node(from);
+  MapNode& taker = hierarchy_.node(to);
+  giver.map().give(taker.map(), world_T_to.inverse() * world_T_from, [&](const Eigen::Vector3f& p) {
+    return regions.at(SeamVotes::cellOf(world_T_voxels * p)) == region;
+  });
+  giver.version = taker.version = z.scan;
+}
+
+NodeId HierarchyMapper::splitOff(const Measurement& z, NodeId id, std::uint32_t region,
+                                 const SurfaceRegions& regions, UpdateReport& report) {
+  LabelledPart part{Structure::cluster, {}, {}, hierarchy_.node(id).label(), {}, {}, {}};
+  for (const auto& p : worldSurface(hierarchy_, id)) {
+    if (regions.at(SeamVotes::cellOf(p)) == region) part.world_points.push_back(p);
+  }
+  part.box = pcaBox(part.world_points);
   // In the frame of the node it was a part of, voxels stay voxels.
   UpdateReport quiet;  // it is no creation
   const NodeId split = createNode(z, part, quiet, hierarchy_.world_T_node(id));
+  handOver(z, id, split, region, regions);
   MapNode& node = hierarchy_.node(id);
   MapNode& piece = hierarchy_.node(split);
-  node.map().give(piece.map(), Eigen::Isometry3d::Identity(), isOther);
-  node.version = piece.version = z.scan;
   piece.first_scan = node.first_scan;
+  piece.last_scan = node.last_scan;
   piece.existence_log_odds = node.existence_log_odds;
   piece.confirmation = node.confirmation;
   if (piece.confirmation.waits) {
@@ -147,59 +158,76 @@ void HierarchyMapper::splitOff(const Measurement& z, NodeId id, const PointCloud
   } else {
     waiting_.erase(split);
   }
-  part.moved_node = split;
   note(report, NodeEventKind::split, split, "from node " + std::to_string(id.value));
+  return split;
 }
 
-void HierarchyMapper::divideSegments(const Measurement& z, const SharedSurfaces& surfaces,
-                                     std::vector<LabelledPart>& parts,
-                                     const std::vector<std::size_t>& clusters, UpdateReport& report) {
-  for (std::size_t s = 0; s < clusters.size(); ++s) {
-    const auto main = parts[clusters[s]].moved_node;
-    if (!main || surfaces.mainNode(s) != main) continue;
-    std::vector<NodeId> holders{*main};
-    for (const NodeId other : surfaces.othersIn(s)) {
-      if (!hierarchy_.contains(other) || !hierarchy_.contains(holders.front())) continue;
-      if (!isOfKind(other, parts[clusters[s]].label)) continue;
-      if (!areOne(seams_, cellsOf(hierarchy_, holders.front()), cellsOf(hierarchy_, other))) {
-        holders.push_back(other);
-        continue;
-      }
-      const auto size = [&](NodeId n) { return hierarchy_.node(n).map().occupiedVoxels().size(); };
-      const bool swap = size(other) > size(holders.front());
-      const NodeId piece = swap ? holders.front() : other;
-      if (swap) holders.front() = other;
-      mergeInto(holders.front(), piece, z.scan, report);
-      for (LabelledPart& part : parts) {
-        if (part.moved_node == piece) part.moved_node = holders.front();
-        if (part.joined_with == piece) part.joined_with = holders.front();
-      }
+void HierarchyMapper::divideSegments(const SurfaceRegions& regions, const NodeRegions& held,
+                                     const std::set<NodeId>& near, std::vector<LabelledPart>& parts) const {
+  // The points of every region, of all segments; the label is that of the segment that has most of them.
+  struct Share {
+    std::map<std::uint32_t, Eigen::Vector3f> points;
+    std::map<std::size_t, std::size_t> segments;
+  };
+  std::map<Region, Share> shares;
+  std::map<std::size_t, Region> most_of_segment;
+  std::vector<LabelledPart> settled;
+  for (std::size_t s = 0; s < parts.size(); ++s) {
+    LabelledPart& part = parts[s];
+    const bool follows = part.structure == Structure::cluster && !part.moved_node;
+    const SegmentRegions found =
+        follows ? regionsOf(part.world_points, regions, held) : SegmentRegions{};
+    if (!found.most) {
+      settled.push_back(part);
+      continue;
     }
-    parts[clusters[s]].moved_node = holders.front();
-    if (holders.size() > 1) dividePart(clusters[s], holders, surfaces, parts);
+    most_of_segment[s] = *found.most;
+    for (std::size_t i = 0; i < found.of_point.size(); ++i) {
+      Share& share = shares[*found.of_point[i]];
+      share.points.emplace(part.points[i], part.world_points[i]);
+      ++share.segments[s];
+    }
   }
-}
-
-void HierarchyMapper::dividePart(std::size_t index, const std::vector<NodeId>& holders,
-                                 const SharedSurfaces& surfaces, std::vector<LabelledPart>& parts) const {
-  const LabelledPart whole = parts[index];
-  const auto nearest = surfaces.nearestOf(whole.world_points, holders);
-  for (std::size_t h = 0; h < holders.size(); ++h) {
-    LabelledPart part{whole.structure, {}, {}, whole.label, {}, holders[h], {}};
-    for (std::size_t i = 0; i < nearest.size(); ++i) {
-      if (nearest[i] != h) continue;
-      part.points.push_back(whole.points[i]);
-      part.world_points.push_back(whole.world_points[i]);
+  for (const auto& [region, share] : shares) {
+    const std::size_t segment = std::max_element(share.segments.begin(), share.segments.end(),
+                                                 [](const auto& a, const auto& b) {
+                                                   return a.second < b.second;
+                                                 })->first;
+    LabelledPart part{Structure::cluster, {}, {}, parts[segment].label, {}, {}, {}};
+    for (const auto& [index, point] : share.points) {
+      part.points.push_back(index);
+      part.world_points.push_back(point);
     }
     part.box = pcaBox(part.world_points);
-    part.label = hierarchy_.node(holders[h]).label();
-    part.joined_with = h == 0 ? std::nullopt : std::optional(holders.front());
-    if (h == 0) {
-      parts[index] = std::move(part);
-    } else if (!part.points.empty()) {
-      parts.push_back(std::move(part));
-    }
+    part.moved_node = nodeOf(region, part, regions, held, near);
+    part.is_new = !part.moved_node;
+    if (part.moved_node) part.label = hierarchy_.node(*part.moved_node).label();
+    // What this scan has not shown by itself is not confirmed by it.
+    const Region most = most_of_segment.at(segment);
+    const auto owners = held.ownersOf(most);
+    if (most != region && !owners.empty()) part.joined_with = owners.front();
+    settled.push_back(std::move(part));
   }
+  parts = std::move(settled);
+}
+
+std::optional<NodeId> HierarchyMapper::nodeOf(std::uint32_t region, const LabelledPart& part,
+                                              const SurfaceRegions& regions, const NodeRegions& held,
+                                              const std::set<NodeId>& near) const {
+  constexpr double kMostly = 0.5;
+  const auto owners = held.ownersOf(region);
+  if (!owners.empty()) return owners.front();
+  for (const NodeId id : held.nodes()) {
+    if (held.othersOf(id).contains(region)) return id;
+  }
+  // It shows nothing known. Another side of something known lies in its box, and there is no seam between.
+  const auto by_box = strategies_.association->associate(
+      hierarchy_, {part.label, &part.world_points, part.box}, [&](NodeId id) {
+        const auto main = held.mainOf(id);
+        return near.contains(id) && hierarchy_.contains(id) && !(main && regions.meet(*main, region));
+      });
+  if (!by_box || shareInside(part.world_points, hierarchy_.box(*by_box)) <= kMostly) return std::nullopt;
+  return by_box;
 }
 
 }  // namespace hoctomap

@@ -1,11 +1,16 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "hoctomap/mapping/SeamVotes.h"
 
+#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
-#include <limits>
+#include <cstdlib>
+#include <unordered_map>
 #include <utility>
 #include <vector>
+
+#include "CellKey.h"
+#include "SeamEvidence.h"
 
 namespace hoctomap {
 
@@ -13,52 +18,86 @@ namespace {
 
 using Cell = SeamVotes::Cell;
 
-/// Half of the directions to the neighbours; the others are their opposites.
-constexpr std::array<Cell, 13> kDirections{{{0, 0, 1},
-                                            {0, 1, -1},
-                                            {0, 1, 0},
-                                            {0, 1, 1},
-                                            {1, -1, -1},
-                                            {1, -1, 0},
-                                            {1, -1, 1},
-                                            {1, 0, -1},
-                                            {1, 0, 0},
-                                            {1, 0, 1},
-                                            {1, 1, -1},
-                                            {1, 1, 0},
-                                            {1, 1, 1}}};
-
-Cell partner(const Cell& cell, const Cell& direction, int sign) {
-  constexpr int kStep = 2;
-  return {cell.x + sign * kStep * direction.x, cell.y + sign * kStep * direction.y,
-          cell.z + sign * kStep * direction.z};
-}
-
-void count(std::uint16_t& counter) {
-  if (counter < std::numeric_limits<std::uint16_t>::max()) ++counter;
-}
-
-/// The segment that has most points in a cell, of every cell.
-std::map<Cell, std::size_t> ownersOf(std::span<const PointCloud* const> segments) {
-  constexpr std::size_t kLeastPoints = 3;  // in a cell: fewer may be strays
-  std::vector<std::pair<Cell, std::size_t>> points;
-  for (std::size_t s = 0; s < segments.size(); ++s) {
-    for (const auto& p : *segments[s]) points.emplace_back(SeamVotes::cellOf(p), s);
-  }
-  std::sort(points.begin(), points.end());
-  std::map<Cell, std::size_t> owners;
-  std::size_t most = 0;  // points of the owner of the last cell
-  for (auto it = points.begin(); it != points.end();) {
-    const auto end = std::upper_bound(it, points.end(), *it);
-    const auto here = static_cast<std::size_t>(end - it);
-    const bool is_new_cell = owners.empty() || owners.rbegin()->first != it->first;
-    if (here >= kLeastPoints && (is_new_cell || here > most)) {
-      owners.insert_or_assign(owners.end(), it->first, it->second);
-      most = here;
+/// The cells two steps away along some axis, one of each opposite two.
+std::array<Cell, SeamVotes::kDirections> directions() {
+  std::array<Cell, SeamVotes::kDirections> found;
+  std::size_t n = 0;
+  for (std::int32_t x = -2; x <= 2; ++x) {
+    for (std::int32_t y = -2; y <= 2; ++y) {
+      for (std::int32_t z = -2; z <= 2; ++z) {
+        const bool is_two_away = std::max({std::abs(x), std::abs(y), std::abs(z)}) == 2;
+        if (is_two_away && Cell{x, y, z} > Cell{}) found[n++] = {x, y, z};
+      }
     }
-    it = end;
   }
-  return owners;
+  return found;
+}
+
+const auto kDirection = directions();
+
+/// The points of a scan in one cell.
+struct SeenCell {
+  Cell cell;
+  std::size_t owner = 0;  ///< segment that has most of the points
+  std::uint32_t most = 0;
+  std::size_t segment = 0;  ///< that is being counted
+  std::uint32_t in_segment = 0;
+  std::uint32_t points = 0;
+  Eigen::Vector3d sum = Eigen::Vector3d::Zero();  ///< relative to the cell's corner
+  Eigen::Matrix3d squares = Eigen::Matrix3d::Zero();
+
+  void add(std::size_t s, const Eigen::Vector3d& p) {
+    if (s != segment) {
+      segment = s;
+      in_segment = 0;
+    }
+    if (++in_segment > most) {
+      most = in_segment;
+      owner = s;
+    }
+    ++points;
+    sum += p;
+    squares.noalias() += p * p.transpose();
+  }
+
+  [[nodiscard]] SurfacePiece surface(const Eigen::Vector3d& corner, const Eigen::Vector3d& origin) const {
+    constexpr std::uint32_t kLeastPoints = 6;
+    constexpr double kLeastSpread = 0.002;  // m, standard deviation along the second axis
+    SurfacePiece piece;
+    if (points < kLeastPoints) return piece;
+    const Eigen::Vector3d mean = sum / points;
+    Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> axes;
+    axes.computeDirect(squares / points - mean * mean.transpose());
+    if (axes.eigenvalues()[1] < kLeastSpread * kLeastSpread) return piece;
+    piece.center = corner + mean;
+    piece.normal = axes.eigenvectors().col(0);
+    if (piece.normal.dot(origin - piece.center) < 0.0) piece.normal = -piece.normal;
+    return piece;
+  }
+};
+
+Eigen::Vector3d cornerOf(const Cell& cell) {
+  return Eigen::Vector3d(cell.x, cell.y, cell.z) * static_cast<double>(SeamVotes::kCell);
+}
+
+/// Cells with enough points to belong to a segment, in order.
+std::vector<SeenCell> seenCells(std::span<const PointCloud* const> segments) {
+  constexpr std::uint32_t kLeastPoints = 3;  // fewer may be strays
+  std::unordered_map<std::uint64_t, SeenCell> by_key;
+  for (std::size_t s = 0; s < segments.size(); ++s) {
+    for (const auto& p : *segments[s]) {
+      const Cell cell = SeamVotes::cellOf(p);
+      SeenCell& seen = by_key[cellKey(cell)];
+      seen.cell = cell;
+      seen.add(s, p.cast<double>() - cornerOf(cell));
+    }
+  }
+  std::vector<SeenCell> cells;
+  for (const auto& [key, seen] : by_key) {
+    if (seen.most >= kLeastPoints) cells.push_back(seen);
+  }
+  std::sort(cells.begin(), cells.end(), [](const auto& a, const auto& b) { return a.cell < b.cell; });
+  return cells;
 }
 
 }  // namespace
@@ -71,52 +110,84 @@ SeamVotes::Cell SeamVotes::cellOf(const Eigen::Vector3f& world_point) {
 SeamVotes::Cells SeamVotes::cellsOf(std::span<const Eigen::Vector3f> world_points) {
   std::vector<Cell> cells;
   cells.reserve(world_points.size());
-  for (const auto& p : world_points) cells.push_back(cellOf(p));
+  for (const auto& p : world_points) {
+    const Cell cell = cellOf(p);
+    if (cells.empty() || cells.back() != cell) cells.push_back(cell);  // neighbours often share one
+  }
   std::sort(cells.begin(), cells.end());
   cells.erase(std::unique(cells.begin(), cells.end()), cells.end());
   return {cells.begin(), cells.end()};
 }
 
-void SeamVotes::add(std::span<const PointCloud* const> segments) {
-  const auto owners = ownersOf(segments);
-  for (const auto& [cell, owner] : owners) {
-    Votes& votes = votes_[cell];
-    count(votes.shown);
-    for (std::size_t d = 0; d < kDirections.size(); ++d) {
-      const auto other = owners.find(partner(cell, kDirections[d], 1));
-      if (other != owners.end() && other->second != owner) count(votes.cut[d]);
+SeamVotes::Cell SeamVotes::partner(const Cell& cell, std::size_t direction, int sign) {
+  const Cell& d = kDirection[direction];
+  return {cell.x + sign * d.x, cell.y + sign * d.y, cell.z + sign * d.z};
+}
+
+SeamVotes::Cells SeamVotes::add(std::span<const PointCloud* const> segments, const Eigen::Vector3d& origin) {
+  constexpr int kMost = 1000;
+  const std::vector<SeenCell> cells = seenCells(segments);
+  std::vector<SurfacePiece> surface;
+  std::unordered_map<std::uint64_t, std::size_t> index;
+  for (const SeenCell& seen : cells) {
+    index[cellKey(seen.cell)] = surface.size();
+    surface.push_back(seen.surface(cornerOf(seen.cell), origin));
+  }
+  Cells shown;
+  for (std::size_t i = 0; i < cells.size(); ++i) {
+    shown.insert(shown.end(), cells[i].cell);
+    Votes& votes = votes_[cells[i].cell];
+    for (std::size_t d = 0; d < kDirections; ++d) {
+      const auto found = index.find(cellKey(partner(cells[i].cell, d)));
+      if (found == index.end()) continue;
+      const std::size_t j = found->second;
+      const int evidence =
+          seamEvidence(passage(surface[i], surface[j]), cells[i].owner != cells[j].owner);
+      votes.known.set(d);
+      votes.evidence[d] =
+          static_cast<std::int16_t>(std::clamp(votes.evidence[d] + evidence, -kMost, kMost));
     }
   }
+  return shown;
 }
 
 void SeamVotes::forget(const Cells& cells) {
-  for (const Cell& cell : cells) votes_.erase(cell);
-}
-
-void SeamVotes::assume(const Cells& cells, std::uint16_t scans) {
-  for (const Cell& cell : cells) votes_[cell] = Votes{scans, {}};
-}
-
-SeamVotes::Verdict SeamVotes::between(const Cells& a, const Cells& b) const {
-  Verdict verdict;
-  for (const Cell& cell : a) {
-    const auto here = votes_.find(cell);
-    if (here == votes_.end()) continue;
-    for (std::size_t d = 0; d < kDirections.size(); ++d) {
-      for (const int sign : {1, -1}) {
-        const Cell other = partner(cell, kDirections[d], sign);
-        if (!b.contains(other)) continue;
-        const auto there = votes_.find(other);
-        if (there == votes_.end()) continue;
-        const double cut = sign > 0 ? here->second.cut[d] : there->second.cut[d];
-        const double both = std::min(here->second.shown, there->second.shown);
-        verdict.apart += cut;
-        verdict.joined += std::max(0.0, both - cut);
-        verdict.pairs += 1.0;
-      }
+  for (const Cell& cell : cells) {
+    votes_.erase(cell);
+    for (std::size_t d = 0; d < kDirections; ++d) {
+      const auto other = votes_.find(partner(cell, d, -1));
+      if (other == votes_.end()) continue;
+      other->second.known.reset(d);
+      other->second.evidence[d] = 0;
     }
   }
-  return verdict;
+}
+
+void SeamVotes::assume(const Cells& cells) {
+  constexpr std::int16_t kWhole = -6;  // three scans that join what is smooth
+  forget(cells);
+  for (const Cell& cell : cells) {
+    Votes& votes = votes_[cell];
+    for (std::size_t d = 0; d < kDirections; ++d) {
+      if (!cells.contains(partner(cell, d))) continue;
+      votes.known.set(d);
+      votes.evidence[d] = kWhole;
+    }
+  }
+}
+
+bool SeamVotes::meet(const Cells& a, const Cells& b) const {
+  const auto reaches = [this](const Cells& from, const Cells& to) {
+    return std::any_of(from.begin(), from.end(), [&](const Cell& cell) {
+      const auto found = votes_.find(cell);
+      if (found == votes_.end()) return false;
+      for (std::size_t d = 0; d < kDirections; ++d) {
+        if (found->second.known[d] && to.contains(partner(cell, d))) return true;
+      }
+      return false;
+    });
+  };
+  return reaches(a, b) || reaches(b, a);
 }
 
 }  // namespace hoctomap

@@ -46,7 +46,8 @@ struct MappingConfig {
 
 struct MovedObjects;
 class ScanSight;
-class SharedSurfaces;
+class SurfaceRegions;
+class NodeRegions;
 
 /// Builds a hierarchy from measurements: the map update of Section III-C.
 class HierarchyMapper {
@@ -118,15 +119,19 @@ class HierarchyMapper {
   void settleIdentity(const Measurement& z, std::vector<LabelledPart>& parts, const NodeEvidence& evidence,
                       UpdateReport& report);
   [[nodiscard]] bool isOfKind(NodeId id, const Label& label) const;
-  void splitNode(const Measurement& z, NodeId id, std::vector<std::size_t>& segments,
-                 const SharedSurfaces& surfaces, std::vector<LabelledPart>& parts,
-                 const std::vector<std::size_t>& clusters, UpdateReport& report);
-  void splitOff(const Measurement& z, NodeId id, const PointCloud& own, const PointCloud& other,
-                LabelledPart& part, UpdateReport& report);
-  void divideSegments(const Measurement& z, const SharedSurfaces& surfaces, std::vector<LabelledPart>& parts,
-                      const std::vector<std::size_t>& clusters, UpdateReport& report);
-  void dividePart(std::size_t index, const std::vector<NodeId>& holders, const SharedSurfaces& surfaces,
-                  std::vector<LabelledPart>& parts) const;
+  void mergeOwners(const Measurement& z, const SurfaceRegions& regions, NodeRegions& held,
+                   std::vector<LabelledPart>& parts, UpdateReport& report);
+  void splitHolders(const Measurement& z, const SurfaceRegions& regions, NodeRegions& held,
+                    UpdateReport& report);
+  void handOver(const Measurement& z, NodeId from, NodeId to, std::uint32_t region,
+                const SurfaceRegions& regions);
+  NodeId splitOff(const Measurement& z, NodeId id, std::uint32_t region, const SurfaceRegions& regions,
+                  UpdateReport& report);
+  void divideSegments(const SurfaceRegions& regions, const NodeRegions& held, const std::set<NodeId>& near,
+                      std::vector<LabelledPart>& parts) const;
+  [[nodiscard]] std::optional<NodeId> nodeOf(std::uint32_t region, const LabelledPart& part,
+                                             const SurfaceRegions& regions, const NodeRegions& held,
+                                             const std::set<NodeId>& near) const;
   // HierarchyMapperConfirmation.cpp
   void confirmNodes(const std::vector<LabelledPart>& parts, const NodeEvidence& evidence,
                     UpdateReport& report);

@@ -1,0 +1,273 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "SurfaceRegions.h"
+
+#include <Eigen/Eigenvalues>
+#include <algorithm>
+#include <cmath>
+#include <queue>
+
+#include "CellKey.h"
+
+namespace hoctomap {
+
+namespace {
+
+using Cell = SeamVotes::Cell;
+using Index = std::uint32_t;
+
+/// What speaks for and against a seam along a border.
+struct Border {
+  int evidence = 0;  ///< positive: for two things
+  int pairs = 0;
+
+  void add(const Border& other) {
+    evidence += other.evidence;
+    pairs += other.pairs;
+  }
+  /// A sum of `pairs` votes is sure by its ratio to their square root: neither long borders nor short ones
+  /// are preferred.
+  [[nodiscard]] double certainty() const { return -evidence / std::sqrt(static_cast<double>(pairs)); }
+};
+
+struct Candidate {
+  double certainty;
+  Index a;  ///< a < b
+  Index b;
+  bool operator<(const Candidate& other) const {
+    return certainty != other.certainty ? certainty < other.certainty : (a != other.a ? a > other.a : b > other.b);
+  }
+};
+
+class Merging {
+ public:
+  explicit Merging(std::vector<Cell> cells) : cells_(std::move(cells)), borders_(cells_.size()) {
+    for (Index i = 0; i < cells_.size(); ++i) {
+      parent_.push_back(i);
+      members_.push_back({i});
+    }
+  }
+
+  void addBorder(Index a, Index b, const Border& border) {
+    borders_[a][b].add(border);
+    borders_[b][a].add(border);
+  }
+
+  void mergeWhatIsOne() {
+    for (Index a = 0; a < borders_.size(); ++a) {
+      for (const auto& [b, border] : borders_[a]) {
+        if (a < b) propose(a, b, border);
+      }
+    }
+    while (!queue_.empty()) {
+      const Candidate top = queue_.top();
+      queue_.pop();
+      const auto found = borders_[top.a].find(top.b);
+      if (found == borders_[top.a].end() || found->second.certainty() != top.certainty) continue;  // outdated
+      merge(top.a, top.b);
+    }
+  }
+
+  /// Small pieces belong to what they are least parted from.
+  void absorbFragments() {
+    for (bool again = true; again;) {
+      again = false;
+      for (Index r = 0; r < parent_.size(); ++r) {
+        if (!isRegion(r) || members_[r].size() >= kFragmentCells) continue;
+        std::optional<Candidate> best;
+        for (const auto& [other, border] : borders_[r]) {
+          const Candidate c{border.certainty(), std::min(r, other), std::max(r, other)};
+          if (!best || *best < c) best = c;
+        }
+        if (!best) continue;
+        merge(best->a, best->b);
+        again = true;
+      }
+    }
+  }
+
+  /// A small piece that a larger thing covers or holds is a part of it.
+  void joinParts() {
+    constexpr double kMostShare = 0.3;
+    std::vector<Index> order;
+    for (Index r = 0; r < parent_.size(); ++r) {
+      if (isRegion(r)) order.push_back(r);
+    }
+    std::stable_sort(order.begin(), order.end(),
+                     [&](Index a, Index b) { return members_[a].size() > members_[b].size(); });
+    for (const Index whole : order) {
+      if (!isRegion(whole)) continue;
+      std::vector<Index> pieces;
+      for (const auto& [other, border] : borders_[whole]) {
+        const double share =
+            static_cast<double>(members_[other].size()) / static_cast<double>(members_[whole].size());
+        if (share <= kMostShare && isPart(whole, other)) pieces.push_back(other);
+      }
+      std::sort(pieces.begin(), pieces.end());
+      Index kept = whole;
+      for (const Index piece : pieces) kept = merge(kept, piece);
+    }
+  }
+
+  [[nodiscard]] Index regionOf(Index cell) {
+    while (parent_[cell] != cell) cell = parent_[cell] = parent_[parent_[cell]];
+    return cell;
+  }
+  [[nodiscard]] const std::unordered_map<Index, Border>& bordersOf(Index region) const {
+    return borders_[region];
+  }
+
+ private:
+  [[nodiscard]] bool isRegion(Index r) const { return parent_[r] == r; }
+
+  void propose(Index a, Index b, const Border& border) {
+    if (border.evidence < 0) queue_.push({border.certainty(), std::min(a, b), std::max(a, b)});
+  }
+
+  /// The one with fewer borders goes into the other.
+  Index merge(Index a, Index b) {
+    if (borders_[a].size() < borders_[b].size()) std::swap(a, b);
+    borders_[a].erase(b);
+    for (const auto& [other, border] : borders_[b]) {
+      if (other == a) continue;
+      borders_[other].erase(b);
+      Border& sum = borders_[a][other];
+      sum.add(border);
+      borders_[other][a] = sum;
+      propose(a, other, sum);
+    }
+    borders_[b].clear();
+    parent_[b] = a;
+    members_[a].insert(members_[a].end(), members_[b].begin(), members_[b].end());
+    members_[b].clear();
+    return a;
+  }
+
+  [[nodiscard]] Eigen::Vector3d center(Index cell) const {
+    const Cell& c = cells_[cell];
+    return Eigen::Vector3d(c.x + 0.5, c.y + 0.5, c.z + 0.5) * static_cast<double>(SeamVotes::kCell);
+  }
+
+  /// Whether a piece is covered or enclosed: it lies within the plan of a thing, along its axes, and not above
+  /// it. The base below an overhanging lid, whose seam is never seen; the floor of a cup. What stands on a thing
+  /// is higher.
+  /// Or held, from the side: it does not reach down as far, nor lies on top. A handle, that is: what is not held
+  /// falls.
+  [[nodiscard]] bool isPart(Index whole, Index piece) const {
+    constexpr double kMostly = 0.9;
+    constexpr double kOffGround = 0.012;  // m
+    const Eigen::Matrix2d axes = axesInPlan(whole);
+    Eigen::AlignedBox3d box = boxAlong(axes, whole);
+    const Eigen::AlignedBox3d of_piece = boxAlong(axes, piece);
+    const double low = of_piece.min().z();
+    if (low > box.min().z() + kOffGround && low < box.center().z() && of_piece.max().z() <= box.max().z())
+      return true;
+    box.min().z() = -std::numeric_limits<double>::infinity();
+    const auto inside =
+        std::count_if(members_[piece].begin(), members_[piece].end(),
+                      [&](Index i) { return box.contains(alongAxes(axes, center(i))); });
+    return static_cast<double>(inside) >= kMostly * static_cast<double>(members_[piece].size());
+  }
+
+  [[nodiscard]] Eigen::Matrix2d axesInPlan(Index region) const {
+    Eigen::Vector2d mean = Eigen::Vector2d::Zero();
+    Eigen::Matrix2d squares = Eigen::Matrix2d::Zero();
+    const auto n = static_cast<double>(members_[region].size());
+    for (const Index i : members_[region]) mean += center(i).head<2>() / n;
+    for (const Index i : members_[region]) {
+      const Eigen::Vector2d d = center(i).head<2>() - mean;
+      squares += d * d.transpose() / n;
+    }
+    return Eigen::SelfAdjointEigenSolver<Eigen::Matrix2d>(squares).eigenvectors();
+  }
+
+  static Eigen::Vector3d alongAxes(const Eigen::Matrix2d& axes, const Eigen::Vector3d& p) {
+    const Eigen::Vector2d q = axes.transpose() * p.head<2>();
+    return {q.x(), q.y(), p.z()};
+  }
+
+  [[nodiscard]] Eigen::AlignedBox3d boxAlong(const Eigen::Matrix2d& axes, Index region) const {
+    Eigen::AlignedBox3d box;
+    for (const Index i : members_[region]) box.extend(alongAxes(axes, center(i)));
+    return box;
+  }
+
+  std::vector<Cell> cells_;
+  std::vector<std::unordered_map<Index, Border>> borders_;
+  std::vector<Index> parent_;
+  std::vector<std::vector<Index>> members_;
+  std::priority_queue<Candidate> queue_;
+};
+
+/// All cells that hang together with `seeds`, in order.
+std::vector<Cell> connected(const SeamVotes& votes, const SeamVotes::Cells& seeds) {
+  const auto& all = votes.all();
+  SeamVotes::Cells found;
+  std::vector<Cell> open;
+  const auto reach = [&](const Cell& cell) {
+    if (all.contains(cell) && found.insert(cell).second) open.push_back(cell);
+  };
+  for (const Cell& seed : seeds) reach(seed);
+  while (!open.empty()) {
+    const Cell cell = open.back();
+    open.pop_back();
+    for (std::size_t d = 0; d < SeamVotes::kDirections; ++d) {
+      reach(SeamVotes::partner(cell, d));
+      reach(SeamVotes::partner(cell, d, -1));
+    }
+  }
+  return {found.begin(), found.end()};
+}
+
+}  // namespace
+
+SurfaceRegions::SurfaceRegions(const SeamVotes& votes, const SeamVotes::Cells& seeds) {
+  // Neighbours are one unless scans say otherwise: views drift apart by a cell.
+  constexpr Border kNeighbours{-1, 1};
+  const std::vector<Cell> cells = connected(votes, seeds);
+  std::unordered_map<std::uint64_t, Index> index;
+  for (Index i = 0; i < cells.size(); ++i) index[cellKey(cells[i])] = i;
+  Merging merging(cells);
+  for (Index i = 0; i < cells.size(); ++i) {
+    const auto& of_cell = votes.all().at(cells[i]);
+    for (std::size_t d = 0; d < SeamVotes::kDirections; ++d) {
+      if (!of_cell.known[d]) continue;
+      const auto other = index.find(cellKey(SeamVotes::partner(cells[i], d)));
+      if (other != index.end()) merging.addBorder(i, other->second, {of_cell.evidence[d], 1});
+    }
+    for (int step = 14; step < 27; ++step) {  // half of the 26 neighbours
+      const Cell& c = cells[i];
+      const auto other = index.find(cellKey({c.x + step / 9 - 1, c.y + step / 3 % 3 - 1, c.z + step % 3 - 1}));
+      if (other != index.end()) merging.addBorder(i, other->second, kNeighbours);
+    }
+  }
+  merging.mergeWhatIsOne();
+  merging.absorbFragments();
+  merging.joinParts();
+
+  std::unordered_map<Index, Region> number;
+  for (Index i = 0; i < cells.size(); ++i) {
+    const auto [found, is_new] =
+        number.try_emplace(merging.regionOf(i), static_cast<Region>(sizes_.size()));
+    if (is_new) sizes_.push_back(0);
+    ++sizes_[found->second];
+    region_of_cell_[cellKey(cells[i])] = found->second;
+  }
+  for (const auto& [root, region] : number) {
+    for (const auto& [other, border] : merging.bordersOf(root))
+      seams_.insert(std::minmax(region, number.at(other)));
+  }
+}
+
+std::optional<SurfaceRegions::Region> SurfaceRegions::at(const SeamVotes::Cell& cell) const {
+  const auto found = region_of_cell_.find(cellKey(cell));
+  return found == region_of_cell_.end() ? std::nullopt : std::optional(found->second);
+}
+
+bool SurfaceRegions::isBeside(const SeamVotes::Cell& c, Region region) const {
+  for (int step = 0; step < 27; ++step) {
+    if (at({c.x + step / 9 - 1, c.y + step / 3 % 3 - 1, c.z + step % 3 - 1}) == region) return true;
+  }
+  return false;
+}
+
+}  // namespace hoctomap
