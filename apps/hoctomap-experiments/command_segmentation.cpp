@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include <array>
 #include <filesystem>
 #include <iostream>
 #include <memory>
@@ -9,6 +10,7 @@
 #include "hoctomap/io/CsvText.h"
 #include "hoctomap/io/LabelPng.h"
 #include "segmentation/LabelledScenes.h"
+#include "segmentation/SimulatedScenes.h"
 
 namespace hoctomap {
 
@@ -19,7 +21,11 @@ struct CommandOptions {
   std::string output;
   std::string config;
   std::vector<std::string> overrides;
+  int simulated = 0;
+  int first = 1;
 };
+
+constexpr std::array kKinds{SceneKind::piled, SceneKind::thin, SceneKind::far, SceneKind::bare};
 
 int segmentation(const CommandOptions& options) {
   const auto file =
@@ -29,10 +35,10 @@ int segmentation(const CommandOptions& options) {
   const std::filesystem::path output(options.output);
   std::vector<SceneResult> results;
   std::string csv = "scene,category,precision,recall,f,share75,found,objects,user_ms\n";
-  for (const auto& scene : labelledScenes(options.scenes)) {
+  const auto take = [&](const LabelledScene& scene, const auto& segment) {
     const auto labels = output / scene.name / "labels";
     std::filesystem::create_directories(labels);
-    const auto& r = results.emplace_back(segmentScene(scene, *method, [&](const GreyImage& image) {
+    const SceneResult& r = results.emplace_back(segment([&](const GreyImage& image) {
       writeLabelPng(labels / "000000.png", image.width, image.height, image.values);
     }));
     csv += scene.name + "," + scene.category;
@@ -41,7 +47,19 @@ int segmentation(const CommandOptions& options) {
       csv += "," + std::to_string(value);
     }
     csv += "\n";
-    std::cerr << scene.name << " F " << r.score.f << std::endl;
+    std::cerr << scene.name << " F " << r.score.f << ", " << r.score.found << " of " << r.score.objects
+              << " objects" << std::endl;
+  };
+  if (!options.scenes.empty()) {
+    for (const auto& scene : labelledScenes(options.scenes))
+      take(scene, [&](const auto& keep) { return segmentScene(scene, *method, keep); });
+  }
+  for (const SceneKind kind : kKinds) {
+    for (int seed = options.first; seed < options.first + options.simulated; ++seed) {
+      const LabelledScene scene{toString(kind) + "_" + std::to_string(seed), toString(kind), {}};
+      const auto view = look(makeSegmentationScene(kind, static_cast<std::uint64_t>(seed)));
+      take(scene, [&](const auto& keep) { return segmentView(scene, view, *method, keep); });
+    }
   }
   writeTextFile(output / "segmentation.csv", csv);
   const std::string table = categoryTable(results);
@@ -57,8 +75,12 @@ void addSegmentationCommand(CLI::App& app, Action& action) {
   CLI::App* command = app.add_subcommand(
       "segmentation", "Objects found in labelled scenes beside the true ones: overlap by category, CPU time");
   command->add_option("scenes", options->scenes, "folder of NNNNNN/{scene.rawlog,label.png}")
-      ->type_name("DIR")
-      ->required();
+      ->type_name("DIR");
+  command->add_option("--simulated", options->simulated,
+                      "so many generated scenes of each kind: piled, thin, far, bare")
+      ->check(CLI::NonNegativeNumber);
+  command->add_option("--first", options->first, "seed of the first generated scene")
+      ->check(CLI::PositiveNumber);
   command->add_option("-o,--output", options->output, "folder for label images, CSV and table")
       ->type_name("DIR")
       ->required();

@@ -43,9 +43,13 @@ void expectKitchen(const std::string& map) {
     }
     std::erase_if(objects, at);
   }
-  // The pile of magazines between the mugs may be an object; nothing else is.
+  // Two spreads of magazines, 5 to 15 mm thick, may be objects; nothing else is.
+  EXPECT_LE(objects.size(), 2U);
   for (const auto& object : objects) {
-    EXPECT_LT((object.centroid.head<2>() - Eigen::Vector2d(1.40, -0.35)).norm(), 0.25)
+    const auto lies = [&](double x, double y) {
+      return (object.centroid.head<2>() - Eigen::Vector2d(x, y)).norm() < 0.25;
+    };
+    EXPECT_TRUE(lies(1.40, -0.35) || lies(1.04, -0.60))
         << "node " << object.record.id.value << " at " << object.centroid.transpose();
   }
 }

@@ -1,10 +1,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <gtest/gtest.h>
 
+#include <algorithm>
+
 #include <cstdlib>
 
 #include "hoctomap/tabletop/TabletopSegmentation.h"
+#include "hoctomap/tabletop/TabletopSegmentation.h"
 #include "segmentation/LabelledScenes.h"
+#include "segmentation/SimulatedScenes.h"
 #include "support/SharedData.h"
 
 namespace hoctomap {
@@ -60,6 +64,38 @@ TEST(SegmentationScore, LabelledScenesAreTakenApartAsPeopleDo) {
   }
   EXPECT_GT(sum.f / count, 0.96);
   EXPECT_GT(sum.share75 / count, 0.96);
+}
+
+/// Mean over the first scenes of a kind, with the default configuration.
+SegmentationScore meanScore(SceneKind kind, int scenes) {
+  const TabletopSegmentation segmentation({});
+  SegmentationScore sum;
+  for (int seed = 1; seed <= scenes; ++seed) {
+    const auto view = look(makeSegmentationScene(kind, static_cast<std::uint64_t>(seed)));
+    sum += segmentView({}, view, segmentation, [](const GreyImage&) {}).score;
+  }
+  for (double* value : {&sum.f, &sum.share75, &sum.found, &sum.objects}) *value /= scenes;
+  return sum;
+}
+
+TEST(SimulatedScenes, ABentTableHasNoObjects) {
+  EXPECT_EQ(meanScore(SceneKind::bare, 6).found, 0.0);
+}
+
+TEST(SimulatedScenes, ThinThingsAreFoundOnABentTable) {
+  const auto score = meanScore(SceneKind::thin, 6);
+  EXPECT_GT(score.objects, 5.0);
+  EXPECT_GT(score.f, 0.93);
+  EXPECT_GT(score.share75, 0.90);
+  EXPECT_LT(score.found, score.objects + 0.5);
+}
+
+TEST(SimulatedScenes, OfTheSameSeedAreTheSame) {
+  const auto a = look(makeSegmentationScene(SceneKind::piled, 3));
+  const auto b = look(makeSegmentationScene(SceneKind::piled, 3));
+  EXPECT_EQ(a.z.image->depth, b.z.image->depth);
+  EXPECT_EQ(a.truth.values, b.truth.values);
+  EXPECT_GE(*std::max_element(a.truth.values.begin(), a.truth.values.end()), 20 + 10 * 7) << "8 things";
 }
 
 }  // namespace

@@ -134,17 +134,6 @@ TEST(ConvexPatches, ABottleIsWhole) {
   expectEachIsOne(desk, desk.look());
 }
 
-TEST(ConvexPatches, WhatIsThinIsFoundIfItIsAskedFor) {
-  Desk desk;
-  desk.put(BoxShape{{0.14, 0.10, 0.012}}, -0.15, 0.1, 0.2);
-  const auto scan = desk.look();
-  EXPECT_TRUE(ofKind(segment(scan.z), Structure::cluster).empty())
-      << "as flat as papers: no object by default";
-  TabletopSegmentationConfig thin;
-  thin.min_object_height = 0.005;
-  expectEachIsOne(desk, scan, 0.85, thin);
-}
-
 TEST(ConvexPatches, TheSameScanGivesTheSamePoints) {
   Desk desk;
   desk.put(BoxShape{{0.10, 0.14, 0.12}}, 0.0, -0.071);

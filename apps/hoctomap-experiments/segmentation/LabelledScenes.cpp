@@ -11,6 +11,7 @@
 #include "hoctomap/tabletop/LabelImage.h"
 #include "measuring/Scans.h"
 #include "measuring/Stopwatch.h"
+#include "segmentation/SimulatedScenes.h"
 
 namespace hoctomap {
 namespace {
@@ -75,17 +76,21 @@ SceneResult segmentScene(const LabelledScene& scene, const Segmentation& segment
   const auto scans = readScans(choice);
   const Measurement& z = scans.front();
   if (!z.image) throw InputError(choice.log.string() + ": no depth image");
-  const Stopwatch watch;
-  const auto segments = segmentation.segment(z);
-  const double user_ms = 1e3 * watch.elapsed().user_s;
-
-  const GreyImage found{z.image->camera.width, z.image->camera.height, labelImage(z, segments)};
   const GreyImage truth = readGreyPng(scene.folder / "label.png");
-  if (truth.width != found.width || truth.height != found.height) {
+  if (truth.width != z.image->camera.width || truth.height != z.image->camera.height) {
     throw InputError((scene.folder / "label.png").string() + ": not of the size of the range image");
   }
+  return segmentView(scene, {z, truth}, segmentation, keep);
+}
+
+SceneResult segmentView(const LabelledScene& scene, const SimulatedView& view,
+                        const Segmentation& segmentation, const std::function<void(const GreyImage&)>& keep) {
+  const Stopwatch watch;
+  const auto segments = segmentation.segment(view.z);
+  const double user_ms = 1e3 * watch.elapsed().user_s;
+  const GreyImage found{view.truth.width, view.truth.height, labelImage(view.z, segments)};
   keep(found);
-  return {scene, scoreSegmentation(found, joinedTruth(truth)), user_ms};
+  return {scene, scoreSegmentation(found, joinedTruth(view.truth)), user_ms};
 }
 
 std::string categoryTable(const std::vector<SceneResult>& results) {

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "Score.h"
+#include "SimulatedScenes.h"
 #include "hoctomap/geometry/Measurement.h"
 #include "hoctomap/mapping/Segmentation.h"
 
@@ -33,6 +34,11 @@ struct SceneResult {
 /// Segments the first scan of a scene; `keep` gets the label image.
 [[nodiscard]] SceneResult segmentScene(const LabelledScene& scene, const Segmentation& segmentation,
                                        const std::function<void(const GreyImage&)>& keep);
+
+/// The same for one view and its truth.
+[[nodiscard]] SceneResult segmentView(const LabelledScene& scene, const SimulatedView& view,
+                                      const Segmentation& segmentation,
+                                      const std::function<void(const GreyImage&)>& keep);
 
 /// Means by category and of all, as a table of Markdown.
 [[nodiscard]] std::string categoryTable(const std::vector<SceneResult>& results);

@@ -127,7 +127,8 @@ constexpr auto settings_keys = std::to_array<Key<Settings>>({
     {"segmentation", "object_size_max", "m", aboveUpTo(0, 100),
      "Horizontal extent; what is wider is background", &at<&S::tabletop, &T::object_size_max>},
     {"segmentation", "min_object_height", "m", within(0, 10),
-     "Clusters that rise less above the table (paper, cables) are background",
+     "What rises less above the table around it is a part of the table. Up to 0.025 m only things with a "
+     "step at their rim are believed (`convex_patches`) or none (`euclidean`)",
      &at<&S::tabletop, &T::min_object_height>},
     {"segmentation", "min_object_size", "m", within(0, 10),
      "Clusters whose largest extent is smaller are background", &at<&S::tabletop, &T::min_object_size>},

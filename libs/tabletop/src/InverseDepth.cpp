@@ -50,7 +50,7 @@ Eigen::Vector3d normalOf(const PatchPlane& plane, const InverseDepthImage& image
   return -away.normalized();
 }
 
-void fillIslands(InverseDepthImage& image, double least, double most) {
+void fillIslands(InverseDepthImage& image, std::span<const float> rise, double least, double most) {
   const int width = image.width;
   const int height = image.height;
   std::vector<std::uint8_t> seen(image.object);
@@ -65,12 +65,14 @@ void fillIslands(InverseDepthImage& image, double least, double most) {
     bool at_border = false;
     std::size_t valid = 0;
     double w = 0.0;
+    double rises = 0.0;
     while (!stack.empty()) {
       const int at = stack.back();
       stack.pop_back();
       pixels.push_back(at);
       const float value = image.w[static_cast<std::size_t>(at)];
       valid += value > 0.0F;
+      if (value > 0.0F) rises += static_cast<double>(rise[static_cast<std::size_t>(at)]);
       w += static_cast<double>(value);
       const int u = at % width;
       const int v = at / width;
@@ -85,7 +87,7 @@ void fillIslands(InverseDepthImage& image, double least, double most) {
       enter(v > 0, at - width);
       enter(v + 1 < height, at + width);
     }
-    if (at_border || 2 * valid <= pixels.size()) continue;
+    if (at_border || 2 * valid <= pixels.size() || rises < static_cast<double>(valid)) continue;
     const double mean_w = w / static_cast<double>(valid);
     const double area = static_cast<double>(pixels.size()) * pixel_angle2 / (mean_w * mean_w);
     if (area < least || area > most) continue;

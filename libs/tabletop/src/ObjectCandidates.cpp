@@ -87,7 +87,7 @@ void dropFlatLayers(const TableSurface& table, std::vector<Candidate>& candidate
   std::vector<int> excess(grid.size(), 0);  // points that are high, less those that are low
   CellMask not_flat(grid.size(), 1);
   const auto isLow = [&](const Candidate& c) {
-    return c.height >= 0.0 && c.height < config.flatHeight(c.range);
+    return c.height >= 0.0 && c.height < config.certainHeight(c.range);
   };
   for (const auto& c : candidates) excess[c.cell] += isLow(c) ? -1 : 1;
   for (const auto& c : candidates) not_flat[c.cell] = excess[c.cell] >= 0;

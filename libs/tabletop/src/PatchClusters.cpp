@@ -17,16 +17,32 @@ Candidate enclosed(const Measurement& z, const TableSurface& table, std::uint32_
   return {point, table.grid.cellOf(p.x(), p.y()), table.plane.signedDistance(p), (p - z.origin()).norm()};
 }
 
+/// How far each pixel stands above the table, in units of the rise that is evidence there.
+std::vector<float> risesOf(const Measurement& z, const TableSurface& table, const TableRelief& relief,
+                           const ObjectImage& view, const TabletopSegmentationConfig& config) {
+  std::vector<float> rises(view.image.size(), 0.0F);
+  const Eigen::Vector3d origin = z.origin();
+  const double drop = table.plane.signedDistance(origin);
+  for (std::size_t i = 0; i < view.pixel_of_point.size(); ++i) {
+    const auto pixel = view.pixel_of_point[i];
+    if (pixel == ObjectImage::kNone || view.image.object[pixel]) continue;
+    const Eigen::Vector3d p = z.world_points[i].cast<double>();
+    const double rise = table.plane.signedDistance(p) - relief.at(p.x(), p.y());
+    rises[pixel] = static_cast<float>(rise / config.leastRise((p - origin).norm(), drop));
+  }
+  return rises;
+}
+
 }  // namespace
 
-std::vector<Cluster> patchClusters(const Measurement& z, const TableSurface& table,
+std::vector<Cluster> patchClusters(const Measurement& z, const TableSurface& table, const TableRelief& relief,
                                    const std::vector<Candidate>& candidates, const std::vector<bool>& taken,
                                    const TabletopSegmentationConfig& config) {
   std::vector<Cluster> clusters;
   if (candidates.empty()) return clusters;
   ObjectImage view = objectImage(z, candidates);
   const auto seen = view.image.object;
-  fillIslands(view.image, kLeastIsland, kMostIsland);
+  fillIslands(view.image, risesOf(z, table, relief, view, config), kLeastIsland, kMostIsland);
   const auto things = convexThings(view.image, config.range_noise);
 
   const auto add = [&](const Candidate& c, std::int32_t thing) {

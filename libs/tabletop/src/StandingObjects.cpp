@@ -9,6 +9,7 @@
 #include "ObjectCandidates.h"
 #include "PatchClusters.h"
 #include "ScanBlocks.h"
+#include "ThinThings.h"
 #include "Vessels.h"
 #include "hoctomap/tabletop/EuclideanClusters.h"
 
@@ -20,6 +21,7 @@ using Config = TabletopSegmentationConfig;
 constexpr double kFoot = 0.02;      // m, height of an object's foot above its lowest point
 constexpr double kThin = 0.01;      // m: what is thinner and
 constexpr double kThinSize = 0.08;  // m: smaller is a scrap of something, not the top of an object
+constexpr double kThinThing = 0.04;  // m, least size of what lies flat on a table
 // Up to a view 60 degrees from above, a ball is seen down to half its radius.
 constexpr double kRoundFoot = 0.5;
 constexpr double kTop = 0.01;  // m, depth of an object's top below its highest points
@@ -44,8 +46,8 @@ double halfWidth(const Cluster& cluster, const Measurement& z) {
   return 2.0 * std::sqrt(Eigen::SelfAdjointEigenSolver<Eigen::Matrix2d>(covariance).eigenvalues()[0]);
 }
 
-ClusterShape shapeOf(const Cluster& cluster, const Regions& regions, const Measurement& z,
-                     const Config& config) {
+ClusterShape shapeOf(const Cluster& cluster, const Regions& regions, const std::vector<bool>& thin,
+                     const Measurement& z, const Config& config) {
   ClusterShape shape;
   std::vector<double> heights;
   for (const auto& c : cluster) {
@@ -54,6 +56,7 @@ ClusterShape shapeOf(const Cluster& cluster, const Regions& regions, const Measu
     shape.range += c.range / static_cast<double>(cluster.size());
     shape.outside += !regions.inside[c.cell] || c.height > config.object_height_max;
     shape.under += c.height < 0.0;
+    shape.thin += !thin.empty() && thin[c.point];
   }
   shape.lowest = std::max(0.0, quantile(heights, 0.02));
   shape.highest = quantile(std::move(heights), 0.95);
@@ -72,14 +75,20 @@ std::size_t countIn(const CellMask& mask, const std::vector<std::size_t>& cells)
       std::count_if(cells.begin(), cells.end(), [&](std::size_t cell) { return mask[cell] != 0; }));
 }
 
+/// High enough, or with the rim of a thin thing, and no scrap.
+bool rises(const ClusterShape& shape, std::size_t points, const Config& config) {
+  const double size = shape.box.sizes().maxCoeff();
+  if (2 * shape.thin > points && size >= kThinThing) return true;
+  return shape.highest >= config.certainHeight(shape.range) &&
+         size >= (shape.highest - shape.lowest < kThin ? kThinSize : config.min_object_size);
+}
+
 /// Of an object's size, over the table and not through it.
 bool couldBeObject(const ClusterShape& shape, const Regions& regions, std::size_t points,
                    const Config& config) {
   return points >= static_cast<std::size_t>(config.min_cluster_points) &&
          config.noise(shape.range) <= config.object_noise_max &&
-         shape.highest >= config.flatHeight(shape.range) &&
-         shape.box.sizes().maxCoeff() >=
-             (shape.highest - shape.lowest < kThin ? kThinSize : config.min_object_size) &&
+         rises(shape, points, config) &&
          shape.box.sizes().head<2>().norm() <= config.object_size_max && 3 * shape.outside <= points &&
          4 * shape.under <= points && 2 * countIn(regions.contact, shape.foot) > shape.foot.size();
 }
@@ -108,12 +117,13 @@ bool meets(const CellMask& near, const Cluster& cluster) {
 /// The clusters that stand on a table. One whose foot is not seen does if it is hidden by, or rests on, an
 /// object that stands there: the rear and the upper parts of a heap.
 std::vector<ShapedCluster> standing(std::vector<Cluster> clusters, const TableSurface& table,
-                                    const Regions& regions, const Measurement& z, const Config& config) {
+                                    const Regions& regions, const std::vector<bool>& thin,
+                                    const Measurement& z, const Config& config) {
   std::vector<ShapedCluster> objects;
   std::vector<ShapedCluster> lifted;
   CellMask shadow(table.grid.size(), 0);
   for (auto& cluster : clusters) {
-    auto shape = shapeOf(cluster, regions, z, config);
+    auto shape = shapeOf(cluster, regions, thin, z, config);
     if (!couldBeObject(shape, regions, cluster.size(), config)) continue;
     // A body that is as deep as it is round curves away below: of a ball, a view from above misses the foot.
     const double hidden_foot = kRoundFoot * shape.half_width;
@@ -155,7 +165,7 @@ std::vector<ShapedCluster> distantObjects(const ScanBlocks& scan, const TableSur
   auto candidates = objectCandidates(scan, table, regions, taken, config);
   dropFlatLayers(table, candidates, config);
   auto clusters = clustersOf(candidates, scan.z(), clusterTolerance(candidates, config));
-  auto objects = standing(std::move(clusters), table, regions, scan.z(), config);
+  auto objects = standing(std::move(clusters), table, regions, {}, scan.z(), config);
   joinVessels(objects, scan.z(), config);
   return objects;
 }
@@ -165,10 +175,18 @@ std::vector<ShapedCluster> convexObjects(const ScanBlocks& scan, const TableSurf
                                          const Regions& regions, const std::vector<bool>& taken,
                                          const std::vector<bool>& in_object, const Config& config) {
   auto candidates = objectCandidates(scan, table, regions, taken, config);
-  dropFlatLayers(table, candidates, config);
-  auto clusters = patchClusters(scan.z(), table, candidates, in_object, config);
+  const auto near = pointsNearTable(scan, table, in_object, config);
+  const TableRelief relief(table, near);
+  auto things = thinThings(scan.z(), relief, near, candidates, config);
+  std::vector<bool> thin(taken.size(), false);
+  for (const auto& thing : things) {
+    for (const auto& c : thing) thin[c.point] = true;
+  }
+  std::erase_if(candidates, [&](const Candidate& c) { return thin[c.point]; });
+  auto clusters = patchClusters(scan.z(), table, relief, candidates, in_object, config);
   joinEnclosedPieces(clusters, scan.z());
-  return standing(std::move(clusters), table, regions, scan.z(), config);
+  std::move(things.begin(), things.end(), std::back_inserter(clusters));
+  return standing(std::move(clusters), table, regions, thin, scan.z(), config);
 }
 
 }  // namespace

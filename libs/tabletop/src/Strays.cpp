@@ -102,7 +102,7 @@ void attachStrays(const Measurement& z, std::vector<TableSurface>& tables, std::
       if (height > config.object_height_max) continue;
       const auto cell = table.grid.cellOf(p.x(), p.y());
       if (cell >= table.grid.size() || !table.extent[cell]) continue;
-      const double flat = config.flatHeight((p - origin).norm());
+      const double flat = config.certainHeight((p - origin).norm());
       if (height < -flat) continue;
       if (std::abs(height) <= flat) {
         table.points.push_back(i);

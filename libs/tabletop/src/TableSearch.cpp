@@ -13,9 +13,10 @@ namespace {
 
 constexpr int kMostPlanes = 24;      // RANSAC rounds of one scan
 constexpr double kGap = 0.08;        // m between parts of one table: seams, sparse rows of far pixels
-constexpr double kHiddenGap = 0.30;  // m between parts of one table behind an object
+constexpr double kHiddenGap = 0.30;  // m between parts of one table behind an object, whatever is around them
 constexpr double kSurround = 0.30;   // m around the seen surface that the grid covers
 constexpr double kSameTable = 0.03;  // m between a table's plane and surfels that are its own residue
+constexpr double kFloor = 0.10;      // m, |z| of what is the floor, if the band of table heights reaches down to it
 constexpr std::size_t kMostCells = 1U << 24U;
 
 using Config = TabletopSegmentationConfig;
@@ -48,6 +49,63 @@ bool isBroad(const SurfaceGrid& grid, const CellMask& patch) {
   std::size_t core = 0;
   for (const auto cell : gone) core += cell == 0;
   return core * 10 > count(patch);
+}
+
+/// Whether what parts the strips of a patch stands on the same surface: within its hull less is open than is hidden,
+/// and of that, most lies under something. Two tables of one height that stand apart leave an open gap beside the things
+/// that hide a part of it; what stands nearer to the sensor is not over them.
+bool isCoveredBetween(const ScanBlocks& scan, const Plane& plane, const SurfaceGrid& grid, const CellMask& patch,
+                      const Config& config) {
+  CellMask gap = grid.hull(patch);
+  std::size_t open = 0;
+  std::size_t hidden = 0;
+  for (std::size_t i = 0; i < gap.size(); ++i) {
+    gap[i] = gap[i] && !patch[i] ? 1 : 0;
+    open += gap[i] && grid.at(i) == SurfaceGrid::Cell::open;
+    hidden += gap[i] && grid.at(i) == SurfaceGrid::Cell::hidden;
+  }
+  if (open >= hidden) return false;
+  CellMask covered(gap.size(), 0);
+  const auto isOver = [&, region = grid.bounds()](const Eigen::AlignedBox3d& box) {
+    return region.intersects(inPlan(box)) && Heights(plane, box).high > kSameTable;
+  };
+  scan.visit(isOver, [&](std::uint32_t i) {
+    const Eigen::Vector3d p = scan.z().world_points[i].cast<double>();
+    const auto cell = grid.cellOf(p.x(), p.y());
+    if (cell >= gap.size() || !gap[cell]) return;
+    const double height = plane.signedDistance(p);
+    if (height <= kSameTable || height >= config.object_height_max) return;
+    if (config.noise((p - scan.z().origin()).norm()) <= config.object_noise_max) covered[cell] = 1;
+  });
+  return 2 * count(covered) > hidden;
+}
+
+/// The parts of a surface that are tables of their own, largest first. Of a table that is seen only in strips between
+/// things from its front to its back, all strips.
+std::vector<CellMask> tablePatches(const ScanBlocks& scan, const Plane& plane, const SurfaceGrid& grid,
+                                   std::size_t least, const Config& config) {
+  constexpr std::size_t kStripShare = 4;  // a strip has at least this part of a table's least area
+  auto strips = grid.patches(kGap, kHiddenGap, least / kStripShare);
+  std::vector<CellMask> patches;
+  for (const auto& around : grid.patches(kGap, std::max(kHiddenGap, config.object_size_max), least)) {
+    CellMask joined(around.size(), 0);
+    std::vector<CellMask> parts;
+    for (auto& strip : strips) {
+      const auto first = static_cast<std::size_t>(std::find(strip.begin(), strip.end(), 1) - strip.begin());
+      if (first == strip.size() || !around[first] || !isBroad(grid, strip)) continue;
+      for (std::size_t i = 0; i < joined.size(); ++i) joined[i] |= strip[i];
+      parts.push_back(std::move(strip));
+    }
+    if (parts.size() > 1 && count(joined) >= least && isCoveredBetween(scan, plane, grid, joined, config)) {
+      parts.assign(1, std::move(joined));
+    }
+    for (auto& part : parts) {
+      if (count(part) >= least) patches.push_back(std::move(part));
+    }
+  }
+  std::stable_sort(patches.begin(), patches.end(),
+                   [](const auto& a, const auto& b) { return count(a) > count(b); });
+  return patches;
 }
 
 /// Points of the patch: on the plane and over its cells or their neighbours, which hold the feet of objects.
@@ -102,11 +160,12 @@ std::optional<TableSurface> tableOf(const ScanBlocks& scan, const Plane& rough, 
   if (!plane || plane->signedDistance(scan.z().origin()) <= kSameTable) return std::nullopt;
   SurfaceGrid grid(scan, *plane, regionAround(rough_grid, rough_patch), config);
   const double cell_area = grid.cellSize() * grid.cellSize();
-  auto patches = grid.patches(kGap, kHiddenGap, static_cast<std::size_t>(config.min_table_area / cell_area));
-  if (patches.empty() || !isBroad(grid, patches.front())) return std::nullopt;
+  auto patches = tablePatches(scan, *plane, grid, static_cast<std::size_t>(config.min_table_area / cell_area), config);
+  if (patches.empty()) return std::nullopt;
   CellMask patch = std::move(patches.front());
   const double height = meanHeight(grid, patch, *plane);
   if (height < config.table_height_min || height > config.table_height_max) return std::nullopt;
+  if (std::abs(height) < kFloor) return std::nullopt;
   CellMask extent = grid.extent(patch);
   auto points = pointsOf(scan, *plane, grid, patch, config);
   return TableSurface{*plane, std::move(grid), std::move(patch), std::move(extent), std::move(points)};
@@ -121,16 +180,20 @@ std::vector<TableSurface> tablesOf(const ScanBlocks& scan, const Plane& plane,
   const double cell_area = grid.cellSize() * grid.cellSize();
   // The plane is rough yet: half of the area will do.
   const auto least = static_cast<std::size_t>(config.min_table_area / cell_area / 2.0);
-  for (const auto& patch : grid.patches(kGap, kHiddenGap, least)) {
+  for (const auto& patch : tablePatches(scan, plane, grid, least, config)) {
     if (auto table = tableOf(scan, plane, grid, patch, config)) tables.push_back(std::move(*table));
   }
   return tables;
 }
 
-/// Whether `upper` lies for the most part over `lower`, less than an object's height above: the top of a box,
-/// a pile of books, or what noise left of the lower one itself.
-bool standsOn(const TableSurface& upper, const TableSurface& lower, const Config& config) {
-  std::size_t over = 0;
+/// How one table lies over another.
+struct Overlap {
+  std::size_t over = 0;  ///< cells of the upper one over the lower one's outline, less than an object's height above
+  double height = 0.0;   ///< m, their mean height above it
+};
+
+Overlap overlap(const TableSurface& upper, const TableSurface& lower, const Config& config) {
+  Overlap result;
   for (std::size_t i = 0; i < upper.patch.size(); ++i) {
     if (!upper.patch[i]) continue;
     const Eigen::Vector2d at = upper.grid.center(i);
@@ -139,20 +202,52 @@ bool standsOn(const TableSurface& upper, const TableSurface& lower, const Config
     const double z =
         -(upper.plane.normal().head<2>().dot(at) + upper.plane.offset()) / upper.plane.normal().z();
     const double height = lower.plane.signedDistance({at.x(), at.y(), z});
-    over += height > -kSameTable && height < config.object_height_max;
+    if (height <= -kSameTable || height >= config.object_height_max) continue;
+    ++result.over;
+    result.height += height;
   }
-  return 2 * over > count(upper.patch);
+  if (result.over > 0) result.height /= static_cast<double>(result.over);
+  return result;
 }
 
-/// Leaves only tables that stand on their own, largest first.
-void keepTables(std::vector<TableSurface>& tables, const Config& config) {
+/// Whether there is room under a surface, into which the sensor looks: it is a shelf, and not the top of a solid thing,
+/// whose lid reaches a few centimetres beyond its sides at most.
+bool hasRoomBelow(const ScanBlocks& scan, const TableSurface& table) {
+  constexpr double kLid = 0.06;         // m
+  constexpr double kRoom = 0.05;        // m under the surface: thicker than a board
+  constexpr double kLeastArea = 0.01;   // m^2 of it into which beams go
+  CellMask beside(table.extent.size());
+  for (std::size_t i = 0; i < beside.size(); ++i) beside[i] = table.extent[i] ? 0 : 1;
+  beside = table.grid.dilated(beside, kLid);
+  CellMask seen(beside.size(), 0);
+  const auto isBelow = [&, region = table.grid.bounds()](const Eigen::AlignedBox3d& box) {
+    return region.intersects(inPlan(box)) && Heights(table.plane, box).low < -kRoom;
+  };
+  scan.visit(isBelow, [&](std::uint32_t i) {
+    const Eigen::Vector3d p = scan.z().world_points[i].cast<double>();
+    const auto cell = table.grid.cellOf(p.x(), p.y());
+    if (cell < seen.size() && !beside[cell] && table.plane.signedDistance(p) < -kRoom) seen[cell] = 1;
+  });
+  return static_cast<double>(count(seen)) * table.grid.cellSize() * table.grid.cellSize() > kLeastArea;
+}
+
+/// Leaves only tables that stand on their own, largest first: not the top of a box or of a pile of books on another
+/// table, nor what noise left of a larger one.
+void keepTables(const ScanBlocks& scan, std::vector<TableSurface>& tables, const Config& config) {
   std::stable_sort(tables.begin(), tables.end(),
                    [](const auto& a, const auto& b) { return count(a.patch) > count(b.patch); });
+  std::vector<bool> is_top(tables.size(), false);
+  for (std::size_t k = 0; k < tables.size(); ++k) {
+    for (std::size_t lower = 0; lower < tables.size() && !is_top[k]; ++lower) {
+      if (lower == k) continue;
+      const Overlap o = overlap(tables[k], tables[lower], config);
+      if (2 * o.over <= count(tables[k].patch)) continue;
+      is_top[k] = o.height > kSameTable ? !hasRoomBelow(scan, tables[k]) : lower < k;
+    }
+  }
   std::vector<TableSurface> kept;
-  for (auto& table : tables) {
-    const bool top = std::any_of(kept.begin(), kept.end(),
-                                 [&](const auto& lower) { return standsOn(table, lower, config); });
-    if (!top) kept.push_back(std::move(table));
+  for (std::size_t k = 0; k < tables.size(); ++k) {
+    if (!is_top[k]) kept.push_back(std::move(tables[k]));
   }
   tables = std::move(kept);
 }
@@ -170,11 +265,11 @@ void removeExplained(std::vector<Surfel>& surfels, const Plane& plane,
   std::erase_if(surfels, explained);
 }
 
-/// Parts of a plane that lie apart, as indices into `inliers`.
-std::vector<PointIndices> partsOf(std::span<const Eigen::Vector3d> inliers) {
+/// Parts of a plane that lie farther apart than an object is long, as indices into `inliers`.
+std::vector<PointIndices> partsOf(std::span<const Eigen::Vector3d> inliers, const Config& config) {
   PointCloud flat;
   for (const auto& p : inliers) flat.emplace_back(static_cast<float>(p.x()), static_cast<float>(p.y()), 0.0F);
-  return euclideanClusters(flat, kHiddenGap + Surfel::kSize);
+  return euclideanClusters(flat, std::max(kHiddenGap, config.object_size_max) + Surfel::kSize);
 }
 
 }  // namespace
@@ -194,7 +289,7 @@ std::vector<TableSurface> findTables(const Measurement& z, const TabletopSegment
     // A surfel covers its voxel at most, so a table needs at least this many.
     const double least = config.min_table_area / (Surfel::kSize * Surfel::kSize) / 2.0;
     if (static_cast<double>(inliers.size()) < least) break;
-    for (const auto& part : partsOf(inliers)) {
+    for (const auto& part : partsOf(inliers, config)) {
       if (static_cast<double>(part.size()) < least) continue;
       std::vector<Eigen::Vector3d> centroids;
       for (const auto i : part) centroids.push_back(inliers[i]);
@@ -205,7 +300,7 @@ std::vector<TableSurface> findTables(const Measurement& z, const TabletopSegment
     }
     removeExplained(surfels, *plane, tables);
   }
-  keepTables(tables, config);
+  keepTables(scan, tables, config);
   return tables.empty() ? findBins(scan, config) : tables;
 }
 

@@ -19,6 +19,7 @@ struct ClusterShape {
   double half_width = 0.0;        ///< m, of its narrower side, seen from above
   std::size_t outside = 0;        ///< points beyond the table or above the height limit
   std::size_t under = 0;          ///< points below the table
+  std::size_t thin = 0;           ///< points of thin things
   std::vector<std::size_t> foot;  ///< cells under its lowest points
 };
 
