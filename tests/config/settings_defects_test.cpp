@@ -109,8 +109,8 @@ TEST(SettingsDefects, NumbersOutOfOrder) {
   EXPECT_EQ(problems(sections + "[sensor]\nmin_range = 2\nmax_range = 1\n"),
             "f.ini:6: [sensor] max_range: 1 must be above min_range, which is 2");
   EXPECT_EQ(problems(sections + "[sensor]\nmin_range = 2\nmax_range = none\n"), "");
-  EXPECT_EQ(problems(sections + "[existence]\nmax_beams = 10\n"),
-            "f.ini:5: [existence] max_beams: 10 must be at least min_beams, which is 40");
+  EXPECT_EQ(problems(sections + "[existence]\nmax_beams = 5\n"),
+            "f.ini:5: [existence] max_beams: 5 must be at least min_beams, which is 10");
   EXPECT_EQ(problems(sections + "existence_prior = 0.05\n"),
             "f.ini:4: [label.object] existence_prior: 0.05 must be above p_absent, which is 0.1");
   EXPECT_EQ(problems(sections + "existence_prior = 0.95\n"),

@@ -150,8 +150,9 @@ constexpr auto settings_keys = std::to_array<Key<Settings>>({
 
     {"existence", "pose_shift", "m", within(0, 1),
      "Largest sideways error of the pose of a node or scan that is searched out, and the "
-     "smallest motion of an object that is believed; 0.006 for a fixed camera, "
-     "0.03 for a hand-held one",
+     "smallest motion of an object that is believed; 0.03 for a hand-held camera. What was "
+     "mapped from where the sensor still is, and what other nodes of the scan show the error of, "
+     "is searched within 0.3 of it",
      &at<&S::existence, &E::pose_shift>},
     {"existence", "pose_depth", "m", within(0, 1), "The same error along the beam",
      &at<&S::existence, &E::pose_depth>},

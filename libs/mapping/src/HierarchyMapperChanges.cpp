@@ -69,14 +69,15 @@ void HierarchyMapper::findReplaced(const Measurement& z, const std::vector<Label
     const LabelledPart& part = *clusters[i];
     const double range = (part.world_points.front().cast<double>() - z.origin()).norm();
     for (const NodeId id : hierarchy_.idsNear(worldBounds(part.box))) {
-      // Either the segment would join the node, or one that was made after the node had its last: its
-      // successor.
-      const bool is_candidate = nodes[i] && (*nodes[i] == id || hierarchy_.node(*nodes[i]).first_scan >
-                                                                    hierarchy_.node(id).last_scan);
       const auto found = evidence.by_node.find(id);
-      if (!is_candidate || found == evidence.by_node.end()) continue;
+      if (found == evidence.by_node.end() || !found->second.informative) continue;
       const Evidence& e = found->second;
-      if (!e.informative || e.contradicts()) continue;
+      // Either the segment would join the node, or one that was made after the node had its last: its
+      // successor. Or it is new, because some beams contradict the node already.
+      const bool is_candidate =
+          nodes[i] ? *nodes[i] == id || hierarchy_.node(*nodes[i]).first_scan > hierarchy_.node(id).last_scan
+                   : e.contradicts();
+      if (!is_candidate) continue;
       // What nearly all beams end on is there, though other segments may join or divide it.
       if (e.presentShare() >= config_.reidentification.most_present) continue;
       if (hierarchy_.node(id).label() != part.label) continue;

@@ -25,15 +25,16 @@ Eigen::Vector3d centreOf(const MapHierarchy& hierarchy, NodeId id) {
   return toIsometry(hierarchy.world_T_node(id)).translation();
 }
 
-/// Whether the scan shows a child that did not move.
+/// Whether the scan clearly shows a child that did not move: in its place may be another one.
 bool someChildStays(const MapHierarchy& hierarchy, NodeId carrier, const Children& moved,
-                    const std::map<NodeId, Evidence>& support) {
+                    const std::map<NodeId, Evidence>& support, double least_present) {
   const auto& children = hierarchy.node(carrier).children();
   return std::any_of(children.begin(), children.end(), [&](NodeId child) {
     const auto found = support.find(child);
     const bool is_moved =
         std::any_of(moved.begin(), moved.end(), [&](const MovedObject* m) { return m->node == child; });
-    return !is_moved && found != support.end() && found->second.informative && !found->second.contradicts();
+    return !is_moved && found != support.end() && found->second.informative &&
+           found->second.presentShare() >= least_present;
   });
 }
 
@@ -111,7 +112,7 @@ std::vector<MovedCarrier> findMovedCarriers(const MapHierarchy& hierarchy,
   }
   std::vector<MovedCarrier> carriers;
   for (const auto& [carrier, children] : by_carrier) {
-    if (someChildStays(hierarchy, carrier, children, support)) continue;
+    if (someChildStays(hierarchy, carrier, children, support, config.most_present)) continue;
     const PointCloud surface = worldSurface(hierarchy, carrier);
     const double at_rest = contradictedShare(surface, Eigen::Isometry3d::Identity(), sight);
     if (at_rest < kLeastContradicted) continue;

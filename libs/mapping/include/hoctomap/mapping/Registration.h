@@ -28,7 +28,7 @@ struct RegistrationConfig {
   double same_overlap = 0.85;       ///< both ways
   double different_overlap = 0.6;   ///< of `seen` in `model`; below it they differ
   double least_overlap = 0.45;      ///< of either in the other; below it they differ
-  double least_explained = 0.6;     ///< share of all seen points near the model, new sides or not
+  double least_explained = 0.5;     ///< share of all seen points near the model, new sides or not
   double max_seen_through = 0.12;   ///< share of the model that the scan may contradict
   double min_visible = 0.25;        ///< share of the model that the scan must show
   double rival_score = 0.03;        ///< a pose within it is as good: the smaller turn is kept
