@@ -108,10 +108,10 @@ Support renderSupport(const MapHierarchy& hierarchy, const RangeView& view,
     for (const auto& voxel : node.map().occupiedVoxels()) {
       const auto pixel = view.project(world_T_node * voxel);
       if (!pixel) continue;
-      support.behind.splatBehind(front, *pixel, view.focal(), edge, false);
-      if (is_exact) support.exact.splatBehind(front, *pixel, view.focal(), edge, true);
+      (is_exact ? support.exact : support.behind).splatBehind(front, *pixel, view.focal(), edge, is_exact);
     }
   }
+  support.behind.overlay(support.exact);
   return support;
 }
 
