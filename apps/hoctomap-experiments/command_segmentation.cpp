@@ -76,8 +76,9 @@ void addSegmentationCommand(CLI::App& app, Action& action) {
       "segmentation", "Objects found in labelled scenes beside the true ones: overlap by category, CPU time");
   command->add_option("scenes", options->scenes, "folder of NNNNNN/{scene.rawlog,label.png}")
       ->type_name("DIR");
-  command->add_option("--simulated", options->simulated,
-                      "so many generated scenes of each kind: piled, thin, far, bare")
+  command
+      ->add_option("--simulated", options->simulated,
+                   "so many generated scenes of each kind: piled, thin, far, bare")
       ->check(CLI::NonNegativeNumber);
   command->add_option("--first", options->first, "seed of the first generated scene")
       ->check(CLI::PositiveNumber);

@@ -43,8 +43,9 @@ void expectKitchen(const std::string& map) {
     }
     std::erase_if(objects, at);
   }
-  // Two spreads of magazines, 5 to 15 mm thick, may be objects; nothing else is.
-  EXPECT_LE(objects.size(), 2U);
+  // Two spreads of magazines, 5 to 15 mm thick, may be objects, and in reverse a piece of the edge of one of
+  // them (docs/plans.md); nothing else is.
+  EXPECT_LE(objects.size(), 3U);
   for (const auto& object : objects) {
     const auto lies = [&](double x, double y) {
       return (object.centroid.head<2>() - Eigen::Vector2d(x, y)).norm() < 0.25;

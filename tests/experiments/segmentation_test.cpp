@@ -6,7 +6,6 @@
 #include <cstdlib>
 
 #include "hoctomap/tabletop/TabletopSegmentation.h"
-#include "hoctomap/tabletop/TabletopSegmentation.h"
 #include "segmentation/LabelledScenes.h"
 #include "segmentation/SimulatedScenes.h"
 #include "support/SharedData.h"

@@ -96,8 +96,8 @@ TEST(TableShapes, AShelfOverATableIsATable) {
     ASSERT_EQ(findTables(z, TabletopSegmentationConfig{}).size(), 2U) << seed;
     for (const auto thing : {on, under}) {
       std::size_t holders = 0;
-      for (const auto& s : ofKind(TabletopSegmentation(TabletopSegmentationConfig{}).segment(z),
-                                  Structure::cluster)) {
+      for (const auto& s :
+           ofKind(TabletopSegmentation(TabletopSegmentationConfig{}).segment(z), Structure::cluster)) {
         holders += pointsIn(z, s, scene.boxes[thing]) > s.points.size() * 8 / 10;
       }
       EXPECT_EQ(holders, 1U) << thing;
@@ -122,10 +122,10 @@ TEST(TableShapes, WithoutABandOfHeightsLowTablesAreTablesAndTheFloorIsNone) {
   config.table_height_min = -1000.0;
   config.table_height_max = 1000.0;
   BoxScene scene;
-  scene.add(0.0, 0.0, -0.1, 8.0, 8.0, 0.1);     // floor
-  scene.add(2.6, 0.0, 0.0, 0.1, 8.0, 2.5);      // wall
-  scene.add(1.3, 0.5, 0.32, 0.6, 0.7, 0.03);    // 0.35 m
-  scene.add(1.3, -0.5, 1.12, 0.6, 0.6, 0.03);   // 1.15 m
+  scene.add(0.0, 0.0, -0.1, 8.0, 8.0, 0.1);    // floor
+  scene.add(2.6, 0.0, 0.0, 0.1, 8.0, 2.5);     // wall
+  scene.add(1.3, 0.5, 0.32, 0.6, 0.7, 0.03);   // 0.35 m
+  scene.add(1.3, -0.5, 1.12, 0.6, 0.6, 0.03);  // 1.15 m
   Rng rng(4);
   const auto tables = findTables(scene.look(kEye, kTarget, &rng), config);
   ASSERT_EQ(tables.size(), 2U);
@@ -185,9 +185,9 @@ TEST(TableShapes, ATableThatTiltsAndSinksIsOneNode) {
   }
   const MapHierarchy& map = mapper.hierarchy();
   const auto ids = map.ids();
-  EXPECT_EQ(std::count_if(ids.begin(), ids.end(),
-                          [&](NodeId id) { return map.node(id).label() == labels::table; }),
-            1);
+  EXPECT_EQ(
+      std::count_if(ids.begin(), ids.end(), [&](NodeId id) { return map.node(id).label() == labels::table; }),
+      1);
 }
 
 }  // namespace

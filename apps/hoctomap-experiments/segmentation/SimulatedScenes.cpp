@@ -16,11 +16,12 @@ namespace hoctomap {
 
 namespace {
 
-constexpr double kTable = 0.72;       // m, height
-constexpr double kCell = 0.004;       // m, of the height field that things are dropped on
-constexpr double kSteady = 0.003;     // m that the height under a thing's middle may be below its highest support
-constexpr double kWarp = 0.002;       // m, amplitude of each of the waves of a warped table
-constexpr double kLeastWave = 0.6;    // m
+constexpr double kTable = 0.72;  // m, height
+constexpr double kCell = 0.004;  // m, of the height field that things are dropped on
+constexpr double kSteady =
+    0.003;                       // m that the height under a thing's middle may be below its highest support
+constexpr double kWarp = 0.002;  // m, amplitude of each of the waves of a warped table
+constexpr double kLeastWave = 0.6;  // m
 constexpr int kMostTries = 200;
 const Eigen::Vector2d kTableSize(0.9, 1.3);
 
@@ -127,9 +128,9 @@ class SceneMaker {
     const double elevation = far ? uniform(0.35, 0.6) : uniform(0.55, 0.95);
     const double angle = uniform(-0.9, 0.9);
     const Eigen::Vector3d target(0.0, 0.0, kTable);
-    const Eigen::Vector3d eye = target + distance * Eigen::Vector3d(std::cos(elevation) * std::cos(angle),
-                                                                    std::cos(elevation) * std::sin(angle),
-                                                                    std::sin(elevation));
+    const Eigen::Vector3d eye =
+        target + distance * Eigen::Vector3d(std::cos(elevation) * std::cos(angle),
+                                            std::cos(elevation) * std::sin(angle), std::sin(elevation));
     simulation_.views = {lookAt(eye, target)};
   }
 
@@ -212,8 +213,9 @@ class SceneMaker {
       for (double u = x - reach; u <= x + reach; u += kCell) {
         const double a = c * (u - x) + s * (v - y);
         const double b = -s * (u - x) + c * (v - y);
-        const bool in = thing.round ? std::hypot(a, b) <= thing.half_x + margin
-                                    : std::abs(a) <= thing.half_x + margin && std::abs(b) <= thing.half_y + margin;
+        const bool in = thing.round
+                            ? std::hypot(a, b) <= thing.half_x + margin
+                            : std::abs(a) <= thing.half_x + margin && std::abs(b) <= thing.half_y + margin;
         if (!in) continue;
         const int column = static_cast<int>(std::floor((u + kTableSize.x() / 2.0) / kCell));
         const int row = static_cast<int>(std::floor((v + kTableSize.y() / 2.0) / kCell));
@@ -251,8 +253,7 @@ class SceneMaker {
     const int things = between(8, 16);
     const int heaps = between(2, 3);
     std::vector<Eigen::Vector2d> heap;
-    for (int i = 0; i < heaps; ++i)
-      heap.emplace_back(uniform(-0.12, 0.12), 0.7 * ((i + 0.5) / heaps - 0.5));
+    for (int i = 0; i < heaps; ++i) heap.emplace_back(uniform(-0.12, 0.12), 0.7 * ((i + 0.5) / heaps - 0.5));
     for (int tries = 0; objects_ < things && tries < kMostTries; ++tries) {
       const auto& at = heap[static_cast<std::size_t>(between(0, heaps - 1))];
       drop(solidThing(), at.x() + uniform(-0.15, 0.15), at.y() + uniform(-0.14, 0.14),

@@ -23,7 +23,8 @@ enum class SceneKind {
 /// A random scene with one view of it; the same seed, the same scene.
 [[nodiscard]] Simulation makeSegmentationScene(SceneKind kind, std::uint64_t seed);
 
-/// The view, and the truth in the way of labelled scenes (see `joinedTruth`): 1 no object, 20, 30, ... objects.
+/// The view, and the truth in the way of labelled scenes (see `joinedTruth`): 1 no object, 20, 30, ...
+/// objects.
 struct SimulatedView {
   Measurement z;
   GreyImage truth;

@@ -30,8 +30,8 @@ struct InverseDepthImage {
 
 /// Takes for objects what objects enclose, as the floor of a pot that lies in the tolerance of the table's
 /// plane: connected pixels that are no object, of an area between `least` and `most` (m^2, as if facing the
-/// sensor), with a return in more than half of them. `rise` is the height of each pixel above the table in units of
-/// the rise that is evidence: an island that does not reach 1 on average is a part of the table.
+/// sensor), with a return in more than half of them. `rise` is the height of each pixel above the table in
+/// units of the rise that is evidence: an island that does not reach 1 on average is a part of the table.
 void fillIslands(InverseDepthImage& image, std::span<const float> rise, double least, double most);
 
 /// w = a u + b v + c, and the place in the picture to which it belongs.

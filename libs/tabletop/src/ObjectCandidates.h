@@ -13,7 +13,8 @@ struct Candidate {
   std::size_t cell = 0;  ///< of the table's grid, under the point
   double height = 0.0;   ///< m above the table
   double range = 0.0;    ///< m from the sensor
-  double least_rise = 0.0;  ///< m above the table that are evidence there, see `leastRise`; of points near the table
+  double least_rise =
+      0.0;  ///< m above the table that are evidence there, see `leastRise`; of points near the table
 };
 
 /// Regions of a table's grid, from the inside to the outside.

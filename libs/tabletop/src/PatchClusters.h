@@ -9,8 +9,8 @@
 namespace hoctomap {
 
 /// The things among the candidates of a table, cut at concave creases and steps (ConvexPatches.h), and with
-/// what they enclose, even if the noise of the table's plane holds it, as long as it is not the table. Points ascend within a cluster. `taken` are the
-/// points of objects found before; none of these is in a cluster.
+/// what they enclose, even if the noise of the table's plane holds it, as long as it is not the table. Points
+/// ascend within a cluster. `taken` are the points of objects found before; none of these is in a cluster.
 [[nodiscard]] std::vector<Cluster> patchClusters(const Measurement& z, const TableSurface& table,
                                                  const TableRelief& relief,
                                                  const std::vector<Candidate>& candidates,

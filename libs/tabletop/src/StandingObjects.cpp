@@ -18,9 +18,9 @@ namespace {
 
 using Config = TabletopSegmentationConfig;
 
-constexpr double kFoot = 0.02;      // m, height of an object's foot above its lowest point
-constexpr double kThin = 0.01;      // m: what is thinner and
-constexpr double kThinSize = 0.08;  // m: smaller is a scrap of something, not the top of an object
+constexpr double kFoot = 0.02;       // m, height of an object's foot above its lowest point
+constexpr double kThin = 0.01;       // m: what is thinner and
+constexpr double kThinSize = 0.08;   // m: smaller is a scrap of something, not the top of an object
 constexpr double kThinThing = 0.04;  // m, least size of what lies flat on a table
 // Up to a view 60 degrees from above, a ball is seen down to half its radius.
 constexpr double kRoundFoot = 0.5;
@@ -87,8 +87,7 @@ bool rises(const ClusterShape& shape, std::size_t points, const Config& config) 
 bool couldBeObject(const ClusterShape& shape, const Regions& regions, std::size_t points,
                    const Config& config) {
   return points >= static_cast<std::size_t>(config.min_cluster_points) &&
-         config.noise(shape.range) <= config.object_noise_max &&
-         rises(shape, points, config) &&
+         config.noise(shape.range) <= config.object_noise_max && rises(shape, points, config) &&
          shape.box.sizes().head<2>().norm() <= config.object_size_max && 3 * shape.outside <= points &&
          4 * shape.under <= points && 2 * countIn(regions.contact, shape.foot) > shape.foot.size();
 }

@@ -8,11 +8,11 @@
 namespace hoctomap {
 namespace {
 
-// m, half the widths over which the surface is averaged, one after the other: wider than a thing first, so that a large
-// one does not pass for the table, and as narrow as bends at last.
+// m, half the widths over which the surface is averaged, one after the other: wider than a thing first, so
+// that a large one does not pass for the table, and as narrow as bends at last.
 constexpr std::array kReaches{0.5, 0.5, 0.25, 0.25, 0.12, 0.12, 0.12, 0.12};
 constexpr double kFewestCells = 6;  // of surface, for an average that is not one-sided
-constexpr int kFewestPoints = 3;   // that tell a cell's height
+constexpr int kFewestPoints = 3;    // that tell a cell's height
 
 /// Sums over rectangles of a grid.
 class Sums {

@@ -8,8 +8,8 @@
 
 namespace hoctomap {
 
-/// How a table lies, place by place, to its plane. Tables are bent, lenses distort, and a projector leaves stripes;
-/// all of that changes slowly along the surface, while a thing that lies there ends at a step.
+/// How a table lies, place by place, to its plane. Tables are bent, lenses distort, and a projector leaves
+/// stripes; all of that changes slowly along the surface, while a thing that lies there ends at a step.
 class TableRelief {
  public:
   /// @param near  points on and a little above the table

@@ -6,6 +6,7 @@
 
 #include "BinSearch.h"
 #include "ScanBlocks.h"
+#include "TableTops.h"
 #include "hoctomap/tabletop/EuclideanClusters.h"
 
 namespace hoctomap {
@@ -15,8 +16,8 @@ constexpr int kMostPlanes = 24;      // RANSAC rounds of one scan
 constexpr double kGap = 0.08;        // m between parts of one table: seams, sparse rows of far pixels
 constexpr double kHiddenGap = 0.30;  // m between parts of one table behind an object, whatever is around them
 constexpr double kSurround = 0.30;   // m around the seen surface that the grid covers
-constexpr double kSameTable = 0.03;  // m between a table's plane and surfels that are its own residue
-constexpr double kFloor = 0.10;      // m, |z| of what is the floor, if the band of table heights reaches down to it
+constexpr double kFloor =
+    0.10;  // m, |z| of what is the floor, if the band of table heights reaches down to it
 constexpr std::size_t kMostCells = 1U << 24U;
 
 using Config = TabletopSegmentationConfig;
@@ -51,11 +52,11 @@ bool isBroad(const SurfaceGrid& grid, const CellMask& patch) {
   return core * 10 > count(patch);
 }
 
-/// Whether what parts the strips of a patch stands on the same surface: within its hull less is open than is hidden,
-/// and of that, most lies under something. Two tables of one height that stand apart leave an open gap beside the things
-/// that hide a part of it; what stands nearer to the sensor is not over them.
-bool isCoveredBetween(const ScanBlocks& scan, const Plane& plane, const SurfaceGrid& grid, const CellMask& patch,
-                      const Config& config) {
+/// Whether what parts the strips of a patch stands on the same surface: within its hull less is open than is
+/// hidden, and of that, most lies under something. Two tables of one height that stand apart leave an open
+/// gap beside the things that hide a part of it; what stands nearer to the sensor is not over them.
+bool isCoveredBetween(const ScanBlocks& scan, const Plane& plane, const SurfaceGrid& grid,
+                      const CellMask& patch, const Config& config) {
   CellMask gap = grid.hull(patch);
   std::size_t open = 0;
   std::size_t hidden = 0;
@@ -80,8 +81,8 @@ bool isCoveredBetween(const ScanBlocks& scan, const Plane& plane, const SurfaceG
   return 2 * count(covered) > hidden;
 }
 
-/// The parts of a surface that are tables of their own, largest first. Of a table that is seen only in strips between
-/// things from its front to its back, all strips.
+/// The parts of a surface that are tables of their own, largest first. Of a table that is seen only in strips
+/// between things from its front to its back, all strips.
 std::vector<CellMask> tablePatches(const ScanBlocks& scan, const Plane& plane, const SurfaceGrid& grid,
                                    std::size_t least, const Config& config) {
   constexpr std::size_t kStripShare = 4;  // a strip has at least this part of a table's least area
@@ -160,7 +161,8 @@ std::optional<TableSurface> tableOf(const ScanBlocks& scan, const Plane& rough, 
   if (!plane || plane->signedDistance(scan.z().origin()) <= kSameTable) return std::nullopt;
   SurfaceGrid grid(scan, *plane, regionAround(rough_grid, rough_patch), config);
   const double cell_area = grid.cellSize() * grid.cellSize();
-  auto patches = tablePatches(scan, *plane, grid, static_cast<std::size_t>(config.min_table_area / cell_area), config);
+  auto patches =
+      tablePatches(scan, *plane, grid, static_cast<std::size_t>(config.min_table_area / cell_area), config);
   if (patches.empty()) return std::nullopt;
   CellMask patch = std::move(patches.front());
   const double height = meanHeight(grid, patch, *plane);
@@ -184,72 +186,6 @@ std::vector<TableSurface> tablesOf(const ScanBlocks& scan, const Plane& plane,
     if (auto table = tableOf(scan, plane, grid, patch, config)) tables.push_back(std::move(*table));
   }
   return tables;
-}
-
-/// How one table lies over another.
-struct Overlap {
-  std::size_t over = 0;  ///< cells of the upper one over the lower one's outline, less than an object's height above
-  double height = 0.0;   ///< m, their mean height above it
-};
-
-Overlap overlap(const TableSurface& upper, const TableSurface& lower, const Config& config) {
-  Overlap result;
-  for (std::size_t i = 0; i < upper.patch.size(); ++i) {
-    if (!upper.patch[i]) continue;
-    const Eigen::Vector2d at = upper.grid.center(i);
-    const auto cell = lower.grid.cellOf(at.x(), at.y());
-    if (cell >= lower.grid.size() || !lower.extent[cell]) continue;
-    const double z =
-        -(upper.plane.normal().head<2>().dot(at) + upper.plane.offset()) / upper.plane.normal().z();
-    const double height = lower.plane.signedDistance({at.x(), at.y(), z});
-    if (height <= -kSameTable || height >= config.object_height_max) continue;
-    ++result.over;
-    result.height += height;
-  }
-  if (result.over > 0) result.height /= static_cast<double>(result.over);
-  return result;
-}
-
-/// Whether there is room under a surface, into which the sensor looks: it is a shelf, and not the top of a solid thing,
-/// whose lid reaches a few centimetres beyond its sides at most.
-bool hasRoomBelow(const ScanBlocks& scan, const TableSurface& table) {
-  constexpr double kLid = 0.06;         // m
-  constexpr double kRoom = 0.05;        // m under the surface: thicker than a board
-  constexpr double kLeastArea = 0.01;   // m^2 of it into which beams go
-  CellMask beside(table.extent.size());
-  for (std::size_t i = 0; i < beside.size(); ++i) beside[i] = table.extent[i] ? 0 : 1;
-  beside = table.grid.dilated(beside, kLid);
-  CellMask seen(beside.size(), 0);
-  const auto isBelow = [&, region = table.grid.bounds()](const Eigen::AlignedBox3d& box) {
-    return region.intersects(inPlan(box)) && Heights(table.plane, box).low < -kRoom;
-  };
-  scan.visit(isBelow, [&](std::uint32_t i) {
-    const Eigen::Vector3d p = scan.z().world_points[i].cast<double>();
-    const auto cell = table.grid.cellOf(p.x(), p.y());
-    if (cell < seen.size() && !beside[cell] && table.plane.signedDistance(p) < -kRoom) seen[cell] = 1;
-  });
-  return static_cast<double>(count(seen)) * table.grid.cellSize() * table.grid.cellSize() > kLeastArea;
-}
-
-/// Leaves only tables that stand on their own, largest first: not the top of a box or of a pile of books on another
-/// table, nor what noise left of a larger one.
-void keepTables(const ScanBlocks& scan, std::vector<TableSurface>& tables, const Config& config) {
-  std::stable_sort(tables.begin(), tables.end(),
-                   [](const auto& a, const auto& b) { return count(a.patch) > count(b.patch); });
-  std::vector<bool> is_top(tables.size(), false);
-  for (std::size_t k = 0; k < tables.size(); ++k) {
-    for (std::size_t lower = 0; lower < tables.size() && !is_top[k]; ++lower) {
-      if (lower == k) continue;
-      const Overlap o = overlap(tables[k], tables[lower], config);
-      if (2 * o.over <= count(tables[k].patch)) continue;
-      is_top[k] = o.height > kSameTable ? !hasRoomBelow(scan, tables[k]) : lower < k;
-    }
-  }
-  std::vector<TableSurface> kept;
-  for (std::size_t k = 0; k < tables.size(); ++k) {
-    if (!is_top[k]) kept.push_back(std::move(tables[k]));
-  }
-  tables = std::move(kept);
 }
 
 /// Takes the surfels of a plane out of the search: of a table also those just above and below.

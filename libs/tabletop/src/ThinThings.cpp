@@ -14,15 +14,15 @@ namespace {
 
 // Shares of the least rise at which regions are looked for: what is thicker ends at its own half height.
 constexpr std::array kLevels{2.0, 1.0, 0.5};
-constexpr int kWindow = 1;           // half a window of 3 x 3, whose noise is a third
-constexpr int kEdge = 2;             // pixels by which a triangulating sensor misplaces an edge
+constexpr int kWindow = 1;                     // half a window of 3 x 3, whose noise is a third
+constexpr int kEdge = 2;                       // pixels by which a triangulating sensor misplaces an edge
 constexpr double kLeastBreadth = 2.0 * kEdge;  // pixels: what is narrower is the blur of an edge
-constexpr double kRimShare = 0.3;    // of its border, that must be a step down to the table
+constexpr double kRimShare = 0.3;              // of its border, that must be a step down to the table
 // What goes up from more of a region's border is the foot of a thicker thing, unless the region is level.
 constexpr double kMostContact = 0.25;
 constexpr double kLevelShare = 0.6;  // of its pixels, whose rise is that of the region
 constexpr double kLevel = 0.35;      // of the rise, that they may differ
-constexpr double kMostOpen = 0.4;  // of its border: edges of tables are blurred into what is behind them
+constexpr double kMostOpen = 0.4;    // of its border: edges of tables are blurred into what is behind them
 constexpr double kMostRise = 0.025;  // m: what is thicker needs no rim
 constexpr double kSteepness = 0.6;   // of the rise, within the few pixels of a step
 constexpr double kLeastArea = 6e-4;  // m^2, as if facing the sensor
@@ -32,8 +32,8 @@ constexpr float kNothing = std::numeric_limits<float>::quiet_NaN();
 struct RisePicture {
   int width = 0;
   int height = 0;
-  std::vector<float> rise;     ///< m above the table; NaN: not near it
-  std::vector<float> least;    ///< m, the rise that is evidence there
+  std::vector<float> rise;          ///< m above the table; NaN: not near it
+  std::vector<float> least;         ///< m, the rise that is evidence there
   std::vector<std::uint8_t> thick;  ///< something that rises for certain
 };
 
@@ -77,7 +77,8 @@ class RegionFinder {
     std::int32_t count = 0;
     std::vector<int> pixels;
     for (int seed = 0; seed < static_cast<int>(region.size()); ++seed) {
-      if (region[static_cast<std::size_t>(seed)] >= 0 || !isAbove(static_cast<std::size_t>(seed), level)) continue;
+      if (region[static_cast<std::size_t>(seed)] >= 0 || !isAbove(static_cast<std::size_t>(seed), level))
+        continue;
       follow(seed, level, count, region, pixels);
       if (isThing(pixels, count, region)) {
         for (const auto i : pixels) thing_[static_cast<std::size_t>(i)] = things_;
@@ -87,7 +88,8 @@ class RegionFinder {
     }
   }
 
-  /// Number of the thing of every pixel, -1 where there is none; what is found later holds what was found before.
+  /// Number of the thing of every pixel, -1 where there is none; what is found later holds what was found
+  /// before.
   [[nodiscard]] const std::vector<std::int32_t>& thing() const { return thing_; }
   [[nodiscard]] std::int32_t things() const { return things_; }
 

@@ -26,14 +26,14 @@ struct TabletopSegmentationConfig {
   std::uint64_t seed = 1;          ///< of the draws
 
   // Objects
-  double cluster_tolerance = 0.01;   ///< m, Euclidean distance that joins two object points
-  double object_height_max = 0.6;    ///< m above the table; what reaches higher is background
-  double object_size_max = 1.0;      ///< m, horizontal extent; what is wider is background
+  double cluster_tolerance = 0.01;    ///< m, Euclidean distance that joins two object points
+  double object_height_max = 0.6;     ///< m above the table; what reaches higher is background
+  double object_size_max = 1.0;       ///< m, horizontal extent; what is wider is background
   double min_object_height = 0.0025;  ///< m above the table around it; what rises less is the table's
-  double min_object_size = 0.02;     ///< m, largest extent of the smallest object
-  int min_cluster_points = 50;       ///< smaller clusters are left to the background
-  double object_noise_max = 0.03;                     ///< m; where the noise (three sigma) is larger, objects are not told apart
-  double contact_height = 0.03;  ///< m above the table at which an object must begin
+  double min_object_size = 0.02;      ///< m, largest extent of the smallest object
+  int min_cluster_points = 50;        ///< smaller clusters are left to the background
+  double object_noise_max = 0.03;  ///< m; where the noise (three sigma) is larger, objects are not told apart
+  double contact_height = 0.03;    ///< m above the table at which an object must begin
 
   /// Whether points over a table that are in no cluster go to the object or table they lie on; otherwise, as
   /// in the paper, to the background.
@@ -55,14 +55,14 @@ struct TabletopSegmentationConfig {
     constexpr double kRounding = 1.0 + 1e-9;
     return (plane_tolerance + 3.0 * range_noise * squared_range) * kRounding;
   }
-  /// Height above the table from which a point at this range is more than a bent table or a cable, whatever is
-  /// around it.
+  /// Height above the table from which a point at this range is more than a bent table or a cable, whatever
+  /// is around it.
   [[nodiscard]] double certainHeight(double range) const {
     return std::max(0.025, min_object_height) + noise(range);
   }
-  /// How far a region must stand above the table around it, `drop` metres below the sensor. Averages over many
-  /// pixels take away what is by chance in a range, but not what neighbouring pixels have in common, which is as
-  /// large.
+  /// How far a region must stand above the table around it, `drop` metres below the sensor. Averages over
+  /// many pixels take away what is by chance in a range, but not what neighbouring pixels have in common,
+  /// which is as large.
   [[nodiscard]] double leastRise(double range, double drop) const {
     return std::max(min_object_height, surfaceTolerance(range, drop) - plane_tolerance);
   }
