@@ -26,8 +26,7 @@ std::optional<std::int32_t> take(std::string_view& row, char separator, const st
     length = static_cast<std::size_t>(end - row.data());
     if (error != std::errc()) throw MapError(where + ": is no row of seam votes");
   }
-  if (length >= row.size() || row[length] != separator)
-    throw MapError(where + ": is no row of seam votes");
+  if (length >= row.size() || row[length] != separator) throw MapError(where + ": is no row of seam votes");
   row.remove_prefix(length + 1);
   return number;
 }

@@ -30,8 +30,9 @@ struct SegmentRegions {
   std::optional<Region> most;  ///< that has most of the points
 };
 
-/// Points without a region, and those in scraps or apart from the rest that are no node's, go with most of the
-/// segment. So do those that reach into another region by the cells along the seam only: S knows it to the pixel.
+/// Points without a region, and those in scraps or apart from the rest that are no node's, go with most of
+/// the segment. So do those that reach into another region by the cells along the seam only: S knows it to
+/// the pixel.
 SegmentRegions regionsOf(const PointCloud& world_points, const SurfaceRegions& regions,
                          const NodeRegions& held) {
   SegmentRegions found;
@@ -175,8 +176,7 @@ void HierarchyMapper::divideSegments(const SurfaceRegions& regions, const NodeRe
   for (std::size_t s = 0; s < parts.size(); ++s) {
     LabelledPart& part = parts[s];
     const bool follows = part.structure == Structure::cluster && !part.moved_node;
-    const SegmentRegions found =
-        follows ? regionsOf(part.world_points, regions, held) : SegmentRegions{};
+    const SegmentRegions found = follows ? regionsOf(part.world_points, regions, held) : SegmentRegions{};
     if (!found.most) {
       settled.push_back(part);
       continue;
@@ -189,10 +189,10 @@ void HierarchyMapper::divideSegments(const SurfaceRegions& regions, const NodeRe
     }
   }
   for (const auto& [region, share] : shares) {
-    const std::size_t segment = std::max_element(share.segments.begin(), share.segments.end(),
-                                                 [](const auto& a, const auto& b) {
-                                                   return a.second < b.second;
-                                                 })->first;
+    const std::size_t segment =
+        std::max_element(share.segments.begin(), share.segments.end(), [](const auto& a, const auto& b) {
+          return a.second < b.second;
+        })->first;
     LabelledPart part{Structure::cluster, {}, {}, parts[segment].label, {}, {}, {}};
     for (const auto& [index, point] : share.points) {
       part.points.push_back(index);

@@ -27,9 +27,8 @@ NodeRegions::NodeRegions(const MapHierarchy& hierarchy, std::span<const NodeId> 
                 })->first;
     for (const auto& [region, in_region] : cells) {
       if (region == *held.main) continue;
-      const auto away = std::count_if(in_region.begin(), in_region.end(), [&](const auto& cell) {
-        return !regions.isBeside(cell, *held.main);
-      });
+      const auto away = std::count_if(in_region.begin(), in_region.end(),
+                                      [&](const auto& cell) { return !regions.isBeside(cell, *held.main); });
       if (2 * static_cast<std::size_t>(away) >= kFragmentCells) held.others.insert(region);
     }
   }

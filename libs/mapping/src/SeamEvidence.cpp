@@ -9,7 +9,7 @@ namespace hoctomap {
 
 Passage passage(const SurfacePiece& a, const SurfacePiece& b) {
   // A normal of 1.5 cm of surface is good to some degrees, a corner is 90.
-  constexpr double kSmooth = 20.0;   // degrees
+  constexpr double kSmooth = 20.0;  // degrees
   constexpr double kConvex = 30.0;
   constexpr double kConcave = 45.0;
   constexpr double kLevel = 0.005;  // m, off the common tangent plane
@@ -30,7 +30,7 @@ int seamEvidence(Passage passage, bool cut) {
   // Ratios of how often these are met on seams and on single things of simulated crowded tables.
   switch (passage) {
     case Passage::smooth:
-      return cut ? 0 : -2;
+      return cut ? 1 : -2;
     case Passage::convex:
       return cut ? 2 : -1;
     case Passage::vague:

@@ -141,11 +141,9 @@ SeamVotes::Cells SeamVotes::add(std::span<const PointCloud* const> segments, con
       const auto found = index.find(cellKey(partner(cells[i].cell, d)));
       if (found == index.end()) continue;
       const std::size_t j = found->second;
-      const int evidence =
-          seamEvidence(passage(surface[i], surface[j]), cells[i].owner != cells[j].owner);
+      const int evidence = seamEvidence(passage(surface[i], surface[j]), cells[i].owner != cells[j].owner);
       votes.known.set(d);
-      votes.evidence[d] =
-          static_cast<std::int16_t>(std::clamp(votes.evidence[d] + evidence, -kMost, kMost));
+      votes.evidence[d] = static_cast<std::int16_t>(std::clamp(votes.evidence[d] + evidence, -kMost, kMost));
     }
   }
   return shown;

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "SurfaceRegions.h"
 
-#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <queue>
 
 #include "CellKey.h"
@@ -34,7 +34,8 @@ struct Candidate {
   Index a;  ///< a < b
   Index b;
   bool operator<(const Candidate& other) const {
-    return certainty != other.certainty ? certainty < other.certainty : (a != other.a ? a > other.a : b > other.b);
+    return certainty != other.certainty ? certainty < other.certainty
+                                        : (a != other.a ? a > other.a : b > other.b);
   }
 };
 
@@ -142,53 +143,44 @@ class Merging {
     return a;
   }
 
-  [[nodiscard]] Eigen::Vector3d center(Index cell) const {
-    const Cell& c = cells_[cell];
-    return Eigen::Vector3d(c.x + 0.5, c.y + 0.5, c.z + 0.5) * static_cast<double>(SeamVotes::kCell);
-  }
-
-  /// Whether a piece is covered or enclosed: it lies within the plan of a thing, along its axes, and not above
-  /// it. The base below an overhanging lid, whose seam is never seen; the floor of a cup. What stands on a thing
-  /// is higher.
-  /// Or held, from the side: it does not reach down as far, nor lies on top. A handle, that is: what is not held
+  /// Whether a piece is covered by a thing: the base below an overhanging lid, whose seam is never seen. Or
+  /// held from the side: it does not reach down as far, nor lies on top. A handle, that is: what is not held
   /// falls.
   [[nodiscard]] bool isPart(Index whole, Index piece) const {
+    return isHeldBy(whole, piece) || isCoveredBy(whole, piece);
+  }
+
+  [[nodiscard]] bool isHeldBy(Index whole, Index piece) const {
+    constexpr std::int32_t kOffGround = 1;  // cells
+    const auto [low, high] = heights(whole);
+    const auto [piece_low, piece_high] = heights(piece);
+    return piece_low >= low + kOffGround && 2 * piece_low < low + high && piece_high <= high;
+  }
+
+  /// Whether nearly all of a piece lies below a cell of the thing, or of one beside that.
+  [[nodiscard]] bool isCoveredBy(Index whole, Index piece) const {
     constexpr double kMostly = 0.9;
-    constexpr double kOffGround = 0.012;  // m
-    const Eigen::Matrix2d axes = axesInPlan(whole);
-    Eigen::AlignedBox3d box = boxAlong(axes, whole);
-    const Eigen::AlignedBox3d of_piece = boxAlong(axes, piece);
-    const double low = of_piece.min().z();
-    if (low > box.min().z() + kOffGround && low < box.center().z() && of_piece.max().z() <= box.max().z())
-      return true;
-    box.min().z() = -std::numeric_limits<double>::infinity();
-    const auto inside =
-        std::count_if(members_[piece].begin(), members_[piece].end(),
-                      [&](Index i) { return box.contains(alongAxes(axes, center(i))); });
-    return static_cast<double>(inside) >= kMostly * static_cast<double>(members_[piece].size());
-  }
-
-  [[nodiscard]] Eigen::Matrix2d axesInPlan(Index region) const {
-    Eigen::Vector2d mean = Eigen::Vector2d::Zero();
-    Eigen::Matrix2d squares = Eigen::Matrix2d::Zero();
-    const auto n = static_cast<double>(members_[region].size());
-    for (const Index i : members_[region]) mean += center(i).head<2>() / n;
-    for (const Index i : members_[region]) {
-      const Eigen::Vector2d d = center(i).head<2>() - mean;
-      squares += d * d.transpose() / n;
+    std::map<std::pair<std::int32_t, std::int32_t>, std::int32_t> top;
+    for (const Index i : members_[whole]) {
+      for (int step = 0; step < 9; ++step) {
+        const auto [found, is_new] =
+            top.try_emplace({cells_[i].x + step / 3 - 1, cells_[i].y + step % 3 - 1}, cells_[i].z);
+        if (!is_new) found->second = std::max(found->second, cells_[i].z);
+      }
     }
-    return Eigen::SelfAdjointEigenSolver<Eigen::Matrix2d>(squares).eigenvectors();
+    const auto covered = std::count_if(members_[piece].begin(), members_[piece].end(), [&](Index i) {
+      const auto found = top.find({cells_[i].x, cells_[i].y});
+      return found != top.end() && found->second > cells_[i].z;
+    });
+    return static_cast<double>(covered) >= kMostly * static_cast<double>(members_[piece].size());
   }
 
-  static Eigen::Vector3d alongAxes(const Eigen::Matrix2d& axes, const Eigen::Vector3d& p) {
-    const Eigen::Vector2d q = axes.transpose() * p.head<2>();
-    return {q.x(), q.y(), p.z()};
-  }
-
-  [[nodiscard]] Eigen::AlignedBox3d boxAlong(const Eigen::Matrix2d& axes, Index region) const {
-    Eigen::AlignedBox3d box;
-    for (const Index i : members_[region]) box.extend(alongAxes(axes, center(i)));
-    return box;
+  /// Lowest and highest cell.
+  [[nodiscard]] std::pair<std::int32_t, std::int32_t> heights(Index region) const {
+    const auto [low, high] =
+        std::minmax_element(members_[region].begin(), members_[region].end(),
+                            [this](Index a, Index b) { return cells_[a].z < cells_[b].z; });
+    return {cells_[*low].z, cells_[*high].z};
   }
 
   std::vector<Cell> cells_;
@@ -236,7 +228,8 @@ SurfaceRegions::SurfaceRegions(const SeamVotes& votes, const SeamVotes::Cells& s
     }
     for (int step = 14; step < 27; ++step) {  // half of the 26 neighbours
       const Cell& c = cells[i];
-      const auto other = index.find(cellKey({c.x + step / 9 - 1, c.y + step / 3 % 3 - 1, c.z + step % 3 - 1}));
+      const auto other =
+          index.find(cellKey({c.x + step / 9 - 1, c.y + step / 3 % 3 - 1, c.z + step % 3 - 1}));
       if (other != index.end()) merging.addBorder(i, other->second, kNeighbours);
     }
   }
@@ -246,8 +239,7 @@ SurfaceRegions::SurfaceRegions(const SeamVotes& votes, const SeamVotes::Cells& s
 
   std::unordered_map<Index, Region> number;
   for (Index i = 0; i < cells.size(); ++i) {
-    const auto [found, is_new] =
-        number.try_emplace(merging.regionOf(i), static_cast<Region>(sizes_.size()));
+    const auto [found, is_new] = number.try_emplace(merging.regionOf(i), static_cast<Region>(sizes_.size()));
     if (is_new) sizes_.push_back(0);
     ++sizes_[found->second];
     region_of_cell_[cellKey(cells[i])] = found->second;

@@ -17,13 +17,13 @@ namespace hoctomap {
 /// of the surface a short step apart, how much speaks for their being parts of two things. A single view may
 /// join what touches, or part what is one; what all views say decides, in whatever order they come.
 ///
-/// Places are cells of the world. Evidence is kept by pair of cells, two cells apart, so that a seam may be off
-/// by one. What a scan says of a pair is whether S put the two into one segment, weighed by how the surface
-/// goes from one to the other: only where a seam would show is it news that S found none, and only where there
-/// is a crease or a step is it news that it cut.
+/// Places are cells of the world. Evidence is kept by pair of cells, two cells apart, so that a seam may be
+/// off by one. What a scan says of a pair is whether S put the two into one segment, weighed by how the
+/// surface goes from one to the other: only where a seam would show is it news that S found none, and only
+/// where there is a crease or a step is it news that it cut.
 class SeamVotes {
  public:
-  static constexpr float kCell = 0.015F;         ///< m
+  static constexpr float kCell = 0.015F;          ///< m
   static constexpr std::size_t kDirections = 49;  ///< to the pairs of a cell, without the opposite ones
 
   struct Cell {
