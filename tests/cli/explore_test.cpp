@@ -149,7 +149,10 @@ TEST(ExploreInDifficulties, SurvivesWrongPosesAndDrivesThatFail) {
   };
   EXPECT_GT(kinds("move_failed"), 0);
   EXPECT_GE(kinds("view"), 2);
-  EXPECT_GT(number(rows.back(), "coverage"), 0.8);
+  EXPECT_EQ(rows.back().at("kind"), "explored");
+  EXPECT_GE(test::nodesOf(folder / "map", "object").size(), 6U);
+  // A degree is 26 mm at the distance of a table: much of the surface is there, but not within a voxel.
+  EXPECT_GT(number(rows.back(), "coverage"), 0.6);
 }
 
 TEST(ExploreInDifficulties, OfATableThatItSeesFromOneSideItMapsThatSide) {

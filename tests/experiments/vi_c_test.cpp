@@ -49,7 +49,9 @@ TEST(JitteredScene, MovesObjectsALittleAndNothingElse) {
     const double shift = std::hypot(is.x() - was.x(), is.y() - was.y());
     EXPECT_LT(shift, 0.0567);
     EXPECT_DOUBLE_EQ(is.z(), was.z());
-    if (scene.solid(id).label != SolidLabel::object) EXPECT_EQ(is.asString(), was.asString());
+    if (scene.solid(id).label != SolidLabel::object) {
+      EXPECT_EQ(is.asString(), was.asString());
+    }
     moved += shift > 0.0 ? 1 : 0;
     EXPECT_EQ(is.asString(), jittered(scene, 1).world_T_solid(id).asString());
   }
