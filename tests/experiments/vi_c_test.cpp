@@ -98,14 +98,14 @@ TEST(ViCResults, HaveARowAMethodAndALineAView) {
   EXPECT_EQ(std::count(csv.begin(), csv.end(), '\n'), 1 + 6);
 }
 
-TEST(Trial, OfEveryMethodGoesAroundTheTable) {
+TEST(Trial, GoesAroundTheTable) {
   Simulation simulation = loadScene(test::sourceDir() / "configs/scenes/explore_table.ini",
                                     {"camera.width=320", "camera.height=240", "camera.fx=270"});
   const Settings settings =
       loadSettings(std::nullopt, {"label.object.resolution=0.005", "exploration.max_views=3"});
   const TrialScene scene("table", simulation, 3);
-  for (int m = 0; m < kViewMethods; ++m) {
-    const Trial trial = runTrial(scene, settings, static_cast<ViewMethod>(m), {3, m == 0});
+  for (const ViewMethod method : {ViewMethod::recommended, ViewMethod::circle_4}) {
+    const Trial trial = runTrial(scene, settings, method, {3, method == ViewMethod::recommended});
     ASSERT_GE(trial.views.size(), 3U) << toString(trial.method);
     EXPECT_LE(trial.views.size(), 4U);
     EXPECT_GT(trial.views.back().coverage, trial.views.front().coverage + 0.1) << toString(trial.method);
@@ -115,7 +115,7 @@ TEST(Trial, OfEveryMethodGoesAroundTheTable) {
       EXPECT_NEAR(trial.views[i].seconds, 3.0 * static_cast<double>(7 + i) + trial.views[i].travel / 0.5,
                   1e-6);
     }
-    if (m > 0) continue;
+    if (method != ViewMethod::recommended) continue;
     // The gain foretells what a view would show.
     ASSERT_FALSE(trial.steps.empty());
     std::vector<double> gains;
