@@ -93,7 +93,28 @@ TEST(Experiments, ViBLeavesGhostsInTheSingleMapOnly) {
   EXPECT_NE(outcome.out.find("| simulated |"), std::string::npos) << outcome.out;
 }
 
+TEST(Experiments, ViCComparesTheWaysToChooseViews) {
+  const TemporaryFolder folder;
+  const Outcome outcome = experiments(
+      {"vi-c", (sourceDir() / "configs/scenes/explore_table.ini").string(), "--quick", "-o", folder / "out"});
+  ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
+  const auto trials = parseCsv(readFile(folder / "out/trials.csv"));
+  ASSERT_EQ(trials.size(), 5U);
+  std::size_t views = 0;
+  for (const auto& trial : trials) {
+    EXPECT_GT(std::stod(trial.at("coverage")), 0.6) << trial.at("method");
+    EXPECT_LE(std::stoi(trial.at("views")), 4);
+    views += 1 + std::stoul(trial.at("views"));  // and after the look around
+  }
+  EXPECT_GT(std::stod(trials[0].at("gain_correlation")), 0.7);  // recommended
+  EXPECT_EQ(parseCsv(readFile(folder / "out/views.csv")).size(), views);
+  EXPECT_NE(outcome.out.find("| explore_table | circle of 4 |"), std::string::npos) << outcome.out;
+  for (const char* plot : {"coverage_views", "coverage_travel"})
+    EXPECT_EQ(readFile(folder / (std::string("out/") + plot + ".png")).substr(1, 3), "PNG");
+}
+
 TEST(Experiments, WrongUseIsExit2) {
+  EXPECT_EQ(experiments({"vi-c"}).exit_code, 2);
   EXPECT_EQ(experiments({"vi-a"}).exit_code, 2);
   EXPECT_EQ(experiments({"vi-b"}).exit_code, 2);
   EXPECT_EQ(experiments({"measure", "hole"}).exit_code, 2);

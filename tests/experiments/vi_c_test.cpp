@@ -49,7 +49,9 @@ TEST(JitteredScene, MovesObjectsALittleAndNothingElse) {
     const double shift = std::hypot(is.x() - was.x(), is.y() - was.y());
     EXPECT_LT(shift, 0.0567);
     EXPECT_DOUBLE_EQ(is.z(), was.z());
-    if (scene.solid(id).label != SolidLabel::object) EXPECT_EQ(is.asString(), was.asString());
+    if (scene.solid(id).label != SolidLabel::object) {
+      EXPECT_EQ(is.asString(), was.asString());
+    }
     moved += shift > 0.0 ? 1 : 0;
     EXPECT_EQ(is.asString(), jittered(scene, 1).world_T_solid(id).asString());
   }
@@ -96,14 +98,14 @@ TEST(ViCResults, HaveARowAMethodAndALineAView) {
   EXPECT_EQ(std::count(csv.begin(), csv.end(), '\n'), 1 + 6);
 }
 
-TEST(Trial, OfEveryMethodGoesAroundTheTable) {
+TEST(Trial, GoesAroundTheTable) {
   Simulation simulation = loadScene(test::sourceDir() / "configs/scenes/explore_table.ini",
                                     {"camera.width=320", "camera.height=240", "camera.fx=270"});
   const Settings settings =
       loadSettings(std::nullopt, {"label.object.resolution=0.005", "exploration.max_views=3"});
   const TrialScene scene("table", simulation, 3);
-  for (int m = 0; m < kViewMethods; ++m) {
-    const Trial trial = runTrial(scene, settings, static_cast<ViewMethod>(m), {3, m == 0});
+  for (const ViewMethod method : {ViewMethod::recommended, ViewMethod::circle_4}) {
+    const Trial trial = runTrial(scene, settings, method, {3, method == ViewMethod::recommended});
     ASSERT_GE(trial.views.size(), 3U) << toString(trial.method);
     EXPECT_LE(trial.views.size(), 4U);
     EXPECT_GT(trial.views.back().coverage, trial.views.front().coverage + 0.1) << toString(trial.method);
@@ -113,7 +115,7 @@ TEST(Trial, OfEveryMethodGoesAroundTheTable) {
       EXPECT_NEAR(trial.views[i].seconds, 3.0 * static_cast<double>(7 + i) + trial.views[i].travel / 0.5,
                   1e-6);
     }
-    if (m > 0) continue;
+    if (method != ViewMethod::recommended) continue;
     // The gain foretells what a view would show.
     ASSERT_FALSE(trial.steps.empty());
     std::vector<double> gains;
@@ -122,7 +124,7 @@ TEST(Trial, OfEveryMethodGoesAroundTheTable) {
       gains.push_back(check.gain);
       cells.push_back(check.cells);
     }
-    EXPECT_EQ(gains.size(), 40U);
+    EXPECT_EQ(gains.size(), static_cast<std::size_t>(settings.exploration.viewpoints.candidates));
     EXPECT_GT(rankCorrelation(gains, cells).value(), 0.5);
   }
 }

@@ -136,7 +136,11 @@ std::optional<Plane> regressionPlane(std::span<const Eigen::Vector3d> points,
   mrpt_points.reserve(points.size());
   for (const auto& p : points) mrpt_points.emplace_back(p.x(), p.y(), p.z());
   mrpt::math::TPlane fit;
-  mrpt::math::getRegressionPlane(mrpt_points, fit);
+  try {
+    mrpt::math::getRegressionPlane(mrpt_points, fit);
+  } catch (const std::exception&) {
+    return std::nullopt;  // MRPT's only way to say that the points are aligned
+  }
   const Eigen::Vector3d normal(fit.coefs[0], fit.coefs[1], fit.coefs[2]);
   if (!(normal.norm() > 0.0)) return std::nullopt;
   const Plane plane = upward(Plane(normal / normal.norm(), fit.coefs[3] / normal.norm()));

@@ -33,7 +33,7 @@ struct Surfel {
                                                  const TabletopSegmentationConfig& config,
                                                  std::mt19937_64& rng);
 
-/// Least-squares plane (total, all points alike) with its normal upwards; nothing for fewer than 3 points or
+/// Least-squares plane (total, all points alike) with its normal upwards; nothing for points on a line or
 /// if it tilts by more than `plane_max_tilt`.
 [[nodiscard]] std::optional<Plane> regressionPlane(std::span<const Eigen::Vector3d> points,
                                                    const TabletopSegmentationConfig& config);
