@@ -150,12 +150,37 @@ HierarchyMapper::NodeEvidence HierarchyMapper::gatherEvidence(const Measurement&
   return gathered;
 }
 
+namespace {
+
+/// Whether a tenth of the points or more lie in the box of a node's occupied voxels.
+bool goesThrough(const MapHierarchy& hierarchy, NodeId id, const PointCloud& world_points) {
+  constexpr std::size_t kSamples = 400;
+  constexpr std::size_t kTenth = 10;
+  const Obb box = hierarchy.box(id);
+  if (box.box.isEmpty()) return false;
+  const Eigen::Isometry3d node_T_world = box.world_T_frame.inverse();
+  const std::size_t step = std::max<std::size_t>(1, world_points.size() / kSamples);
+  std::size_t asked = 0;
+  std::size_t inside = 0;
+  for (std::size_t i = 0; i < world_points.size(); i += step) {
+    ++asked;
+    if (box.box.contains(node_T_world * world_points[i].cast<double>())) ++inside;
+  }
+  return inside > 0 && kTenth * inside >= asked;
+}
+
+}  // namespace
+
 std::vector<std::optional<NodeId>> HierarchyMapper::associateByBox(const std::vector<LabelledPart*>& parts,
                                                                    const NodeEvidence& evidence) const {
-  // A node that this scan contradicts must not swallow what has moved into its box.
-  const Admissible admissible = [&evidence](NodeId id) { return !evidence.contradicts(id); };
   std::vector<SegmentInQuestion> segments;
   for (const LabelledPart* part : parts) {
+    // A node that this scan contradicts must not swallow what has moved into its box. But a plane where its
+    // own is seen says that it is there, whatever the error of the pose makes of its beams.
+    const Admissible admissible = [&](NodeId id) {
+      return !evidence.contradicts(id) ||
+             (part->structure == Structure::plane && goesThrough(hierarchy_, id, part->world_points));
+    };
     const LabelledSegment segment{part->label, &part->world_points, part->box};
     segments.push_back({part->label, &part->world_points,
                         part->moved_node
