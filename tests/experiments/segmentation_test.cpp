@@ -65,9 +65,9 @@ TEST(SegmentationScore, LabelledScenesAreTakenApartAsPeopleDo) {
   EXPECT_GT(sum.share75 / count, 0.96);
 }
 
-/// Mean over the first scenes of a kind.
-SegmentationScore meanScore(SceneKind kind, int scenes, const TabletopSegmentationConfig& config) {
-  const TabletopSegmentation segmentation(config);
+/// Mean over the first scenes of a kind, with the default configuration.
+SegmentationScore meanScore(SceneKind kind, int scenes) {
+  const TabletopSegmentation segmentation({});
   SegmentationScore sum;
   for (int seed = 1; seed <= scenes; ++seed) {
     const auto view = look(makeSegmentationScene(kind, static_cast<std::uint64_t>(seed)));
@@ -78,16 +78,11 @@ SegmentationScore meanScore(SceneKind kind, int scenes, const TabletopSegmentati
 }
 
 TEST(SimulatedScenes, ABentTableHasNoObjects) {
-  TabletopSegmentationConfig config;
-  EXPECT_EQ(meanScore(SceneKind::bare, 6, config).found, 0.0);
-  config.min_object_height = 0.0025;
-  EXPECT_EQ(meanScore(SceneKind::bare, 6, config).found, 0.0);
+  EXPECT_EQ(meanScore(SceneKind::bare, 6).found, 0.0);
 }
 
 TEST(SimulatedScenes, ThinThingsAreFoundOnABentTable) {
-  TabletopSegmentationConfig config;
-  config.min_object_height = 0.0025;  // the thinnest of these things have 3 mm
-  const auto score = meanScore(SceneKind::thin, 6, config);
+  const auto score = meanScore(SceneKind::thin, 6);
   EXPECT_GT(score.objects, 5.0);
   EXPECT_GT(score.f, 0.93);
   EXPECT_GT(score.share75, 0.90);

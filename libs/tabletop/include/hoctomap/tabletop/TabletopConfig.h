@@ -29,7 +29,7 @@ struct TabletopSegmentationConfig {
   double cluster_tolerance = 0.01;    ///< m, Euclidean distance that joins two object points
   double object_height_max = 0.6;     ///< m above the table; what reaches higher is background
   double object_size_max = 1.0;       ///< m, horizontal extent; what is wider is background
-  double min_object_height = 0.008;   ///< m above the table around it; what rises less is the table's
+  double min_object_height = 0.0025;  ///< m above the table around it; what rises less is the table's
   double min_object_size = 0.02;      ///< m, largest extent of the smallest object
   int min_cluster_points = 50;        ///< smaller clusters are left to the background
   double object_noise_max = 0.03;  ///< m; where the noise (three sigma) is larger, objects are not told apart
