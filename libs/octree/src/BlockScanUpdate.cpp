@@ -140,7 +140,10 @@ class ScanPass {
       if (tasks == 1) {
         mark(0);
       } else {
-        tbb::this_task_arena::isolate([&] { tbb::parallel_for(std::size_t{0}, tasks, mark); });
+        // Of its own: an error elsewhere in a parallel loop that this update is a part of must not leave
+        // shares out.
+        tbb::task_group_context context(tbb::task_group_context::isolated);
+        tbb::this_task_arena::isolate([&] { tbb::parallel_for(std::size_t{0}, tasks, mark, context); });
       }
       for (std::size_t task = 1; task < tasks; ++task) {
         marks[0]->unite(*marks[task]);
