@@ -28,9 +28,7 @@ TEST(Build, TheOrderOfViewsDoesNotMatter) {
 TEST(Build, TwoTablesHaveTheirOwnObjects) {
   const TemporaryFolder folder;
   test::simulate("room", folder / "a.rawlog");
-  // By default the foot of the cereal box, seen in a gap between nearer things, is a thin thing of its own
-  // (docs/plans.md).
-  test::build(folder / "a.rawlog", folder / "map", {"--set", "segmentation.min_object_height=0.008"});
+  test::build(folder / "a.rawlog", folder / "map");
   EXPECT_EQ(test::nodesOf(folder / "map", "table").size(), 2U);
   test::expectTruth(folder / "map", folder / "a.truth", 0.01);
 }

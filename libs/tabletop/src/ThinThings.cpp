@@ -21,7 +21,9 @@ constexpr double kRimShare = 0.3;              // of its border, that must be a 
 // What goes up from more of a region's border is the foot of a thicker thing, unless the region is level.
 constexpr double kMostContact = 0.25;
 constexpr double kLevelShare = 0.6;  // of its pixels, whose rise is that of the region
-constexpr double kLevel = 0.35;      // of the rise, that they may differ
+constexpr double kLevel = 0.35;      // of the rise, that they may differ, and
+constexpr double kUneven =
+    0.5;  // of the least rise: noise, and less than the front of a thicker thing goes up
 constexpr double kMostOpen = 0.4;    // of its border: edges of tables are blurred into what is behind them
 constexpr double kMostRise = 0.025;  // m: what is thicker needs no rim
 constexpr double kSteepness = 0.6;   // of the rise, within the few pixels of a step
@@ -165,7 +167,7 @@ class RegionFinder {
     const double step = steps / rim;
     if (rise > kMostRise * n || step < least / n || step < kSteepness * rise / n) return false;
     if (contact <= kMostContact * border) return true;
-    std::erase_if(pixels, [&, most = kLevel * rise / n](int i) {
+    std::erase_if(pixels, [&, most = std::min(kLevel * rise, kUneven * least) / n](int i) {
       return std::abs(static_cast<double>(picture_.rise[static_cast<std::size_t>(i)]) - rise / n) >= most;
     });
     return static_cast<double>(pixels.size()) > kLevelShare * n;
