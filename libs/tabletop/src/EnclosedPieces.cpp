@@ -97,10 +97,12 @@ void joinEnclosedPieces(std::vector<Cluster>& clusters, const Measurement& z) {
     for (auto& piece : clusters) {
       if (piece.empty() || &piece == &thing || static_cast<double>(piece.size()) > most) continue;
       if (!box.encloses(piece) && !box.holds(piece, thing)) continue;
+      const auto own = static_cast<std::ptrdiff_t>(thing.size());
       thing.insert(thing.end(), piece.begin(), piece.end());
+      std::inplace_merge(thing.begin(), thing.begin() + own, thing.end(),
+                         [](const auto& a, const auto& b) { return a.point < b.point; });
       piece.clear();
     }
-    std::sort(thing.begin(), thing.end(), [](const auto& a, const auto& b) { return a.point < b.point; });
   }
   std::erase_if(clusters, [](const Cluster& cluster) { return cluster.empty(); });
 }

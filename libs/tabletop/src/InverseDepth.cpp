@@ -50,52 +50,45 @@ Eigen::Vector3d normalOf(const PatchPlane& plane, const InverseDepthImage& image
   return -away.normalized();
 }
 
-void fillIslands(InverseDepthImage& image, std::span<const float> rise, double least, double most) {
-  const int width = image.width;
-  const int height = image.height;
+std::vector<std::vector<std::size_t>> enclosedIslands(const InverseDepthImage& image, double least,
+                                                      double most) {
+  const auto width = static_cast<std::size_t>(image.width);
+  const auto height = static_cast<std::size_t>(image.height);
+  std::vector<std::vector<std::size_t>> islands;
   std::vector<std::uint8_t> seen(image.object);
-  std::vector<int> stack;
-  std::vector<int> pixels;
+  std::vector<std::size_t> pixels;
   const double pixel_angle2 = 1.0 / (image.fx * image.fy);
-  for (int seed = 0; seed < width * height; ++seed) {
-    if (seen[static_cast<std::size_t>(seed)]) continue;
-    seen[static_cast<std::size_t>(seed)] = 1;
-    stack.assign(1, seed);
-    pixels.clear();
+  for (std::size_t seed = 0; seed < image.size(); ++seed) {
+    if (seen[seed]) continue;
+    seen[seed] = 1;
+    pixels.assign(1, seed);
     bool at_border = false;
     std::size_t valid = 0;
     double w = 0.0;
-    double rises = 0.0;
-    while (!stack.empty()) {
-      const int at = stack.back();
-      stack.pop_back();
-      pixels.push_back(at);
-      const float value = image.w[static_cast<std::size_t>(at)];
+    const auto enter = [&](std::size_t to) {
+      if (seen[to]) return;
+      seen[to] = 1;
+      pixels.push_back(to);
+    };
+    for (std::size_t k = 0; k < pixels.size(); ++k) {
+      const std::size_t at = pixels[k];
+      const float value = image.w[at];
       valid += value > 0.0F;
-      if (value > 0.0F) rises += static_cast<double>(rise[static_cast<std::size_t>(at)]);
       w += static_cast<double>(value);
-      const int u = at % width;
-      const int v = at / width;
+      const std::size_t u = at % width;
+      const std::size_t v = at / width;
       at_border = at_border || u == 0 || v == 0 || u == width - 1 || v == height - 1;
-      const auto enter = [&](bool inside, int to) {
-        if (!inside || seen[static_cast<std::size_t>(to)]) return;
-        seen[static_cast<std::size_t>(to)] = 1;
-        stack.push_back(to);
-      };
-      enter(u > 0, at - 1);
-      enter(u + 1 < width, at + 1);
-      enter(v > 0, at - width);
-      enter(v + 1 < height, at + width);
+      if (u > 0) enter(at - 1);
+      if (u + 1 < width) enter(at + 1);
+      if (v > 0) enter(at - width);
+      if (v + 1 < height) enter(at + width);
     }
-    if (at_border || 2 * valid <= pixels.size() || rises < static_cast<double>(valid)) continue;
+    if (at_border || 2 * valid <= pixels.size()) continue;
     const double mean_w = w / static_cast<double>(valid);
     const double area = static_cast<double>(pixels.size()) * pixel_angle2 / (mean_w * mean_w);
-    if (area < least || area > most) continue;
-    for (const auto at : pixels) {
-      const auto i = static_cast<std::size_t>(at);
-      image.object[i] = image.w[i] > 0.0F;
-    }
+    if (area >= least && area <= most) islands.push_back(pixels);
   }
+  return islands;
 }
 
 }  // namespace hoctomap

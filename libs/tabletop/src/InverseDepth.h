@@ -3,7 +3,6 @@
 
 #include <Eigen/Core>
 #include <cstdint>
-#include <span>
 #include <vector>
 
 namespace hoctomap {
@@ -28,11 +27,11 @@ struct InverseDepthImage {
   }
 };
 
-/// Takes for objects what objects enclose, as the floor of a pot that lies in the tolerance of the table's
-/// plane: connected pixels that are no object, of an area between `least` and `most` (m^2, as if facing the
-/// sensor), with a return in more than half of them. `rise` is the height of each pixel above the table in
-/// units of the rise that is evidence: an island that does not reach 1 on average is a part of the table.
-void fillIslands(InverseDepthImage& image, std::span<const float> rise, double least, double most);
+/// What objects enclose, as the floor of a pot that lies in the tolerance of the table's plane: connected
+/// pixels that are no object, of an area between `least` and `most` (m^2, as if facing the sensor), with a
+/// return in more than half of them.
+[[nodiscard]] std::vector<std::vector<std::size_t>> enclosedIslands(const InverseDepthImage& image,
+                                                                    double least, double most);
 
 /// w = a u + b v + c, and the place in the picture to which it belongs.
 struct PatchPlane {
@@ -52,17 +51,18 @@ struct PatchMoments {
   double uu = 0.0, uv = 0.0, vv = 0.0;
   double uw = 0.0, vw = 0.0, ww = 0.0;
 
-  void add(double pu, double pv, double pw) {
-    n += 1.0;
-    u += pu;
-    v += pv;
-    w += pw;
-    uu += pu * pu;
-    uv += pu * pv;
-    vv += pv * pv;
-    uw += pu * pw;
-    vw += pv * pw;
-    ww += pw * pw;
+  /// @param weight  -1 takes a pixel out again
+  void add(double pu, double pv, double pw, double weight = 1.0) {
+    n += weight;
+    u += weight * pu;
+    v += weight * pv;
+    w += weight * pw;
+    uu += weight * pu * pu;
+    uv += weight * pu * pv;
+    vv += weight * pv * pv;
+    uw += weight * pu * pw;
+    vw += weight * pv * pw;
+    ww += weight * pw * pw;
   }
   void add(const PatchMoments& other, double weight);
 

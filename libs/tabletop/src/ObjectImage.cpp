@@ -57,10 +57,12 @@ ObjectImage cutOut(const Measurement& z, std::span<const Candidate> candidates) 
   }
   crop.grow(whole.camera.width, whole.camera.height);
   ObjectImage result = emptyImage(crop, whole.camera, z.world_points.size());
-  // Points need not come in the order of pixels.
+  // Points mostly come row by row, but need not: a division only where the row is another one.
+  std::uint32_t row = 0;
   for (std::size_t i = 0; i < z.pixel_of_point.size(); ++i) {
-    const int u = static_cast<int>(z.pixel_of_point[i] % width);
-    const int v = static_cast<int>(z.pixel_of_point[i] / width);
+    if (z.pixel_of_point[i] - row * width >= width) row = z.pixel_of_point[i] / width;
+    const int u = static_cast<int>(z.pixel_of_point[i] - row * width);
+    const int v = static_cast<int>(row);
     if (u < crop.left || u > crop.right || v < crop.top || v > crop.bottom) continue;
     const auto pixel = static_cast<std::uint32_t>((v - crop.top) * result.image.width + u - crop.left);
     result.pixel_of_point[i] = pixel;

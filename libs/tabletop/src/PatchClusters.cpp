@@ -17,20 +17,35 @@ Candidate enclosed(const Measurement& z, const TableSurface& table, std::uint32_
   return {point, table.grid.cellOf(p.x(), p.y()), table.plane.signedDistance(p), (p - z.origin()).norm()};
 }
 
-/// How far each pixel stands above the table, in units of the rise that is evidence there.
-std::vector<float> risesOf(const Measurement& z, const TableSurface& table, const TableRelief& relief,
-                           const ObjectImage& view, const TabletopSegmentationConfig& config) {
-  std::vector<float> rises(view.image.size(), 0.0F);
+/// Takes islands for objects, but those that do not rise above the table around them: these are a part of it.
+void fillIslands(const Measurement& z, const TableSurface& table, const TableRelief& relief,
+                 const TabletopSegmentationConfig& config, ObjectImage& view) {
+  const auto islands = enclosedIslands(view.image, kLeastIsland, kMostIsland);
+  if (islands.empty()) return;
+  std::vector<std::uint32_t> island_of(view.image.size(), ObjectImage::kNone);
+  for (std::uint32_t k = 0; k < islands.size(); ++k) {
+    for (const auto pixel : islands[k]) island_of[pixel] = k;
+  }
+  struct Rise {
+    double sum = 0.0;  ///< of the points, in units of the rise that is evidence there
+    double points = 0.0;
+  };
+  std::vector<Rise> rises(islands.size());
   const Eigen::Vector3d origin = z.origin();
   const double drop = table.plane.signedDistance(origin);
   for (std::size_t i = 0; i < view.pixel_of_point.size(); ++i) {
     const auto pixel = view.pixel_of_point[i];
-    if (pixel == ObjectImage::kNone || view.image.object[pixel]) continue;
+    if (pixel == ObjectImage::kNone || island_of[pixel] == ObjectImage::kNone) continue;
     const Eigen::Vector3d p = z.world_points[i].cast<double>();
     const double rise = table.plane.signedDistance(p) - relief.at(p.x(), p.y());
-    rises[pixel] = static_cast<float>(rise / config.leastRise((p - origin).norm(), drop));
+    auto& of_island = rises[island_of[pixel]];
+    of_island.sum += rise / config.leastRise((p - origin).norm(), drop);
+    of_island.points += 1.0;
   }
-  return rises;
+  for (std::size_t k = 0; k < islands.size(); ++k) {
+    if (rises[k].sum < rises[k].points) continue;
+    for (const auto pixel : islands[k]) view.image.object[pixel] = view.image.w[pixel] > 0.0F;
+  }
 }
 
 }  // namespace
@@ -42,7 +57,7 @@ std::vector<Cluster> patchClusters(const Measurement& z, const TableSurface& tab
   if (candidates.empty()) return clusters;
   ObjectImage view = objectImage(z, candidates);
   const auto seen = view.image.object;
-  fillIslands(view.image, risesOf(z, table, relief, view, config), kLeastIsland, kMostIsland);
+  fillIslands(z, table, relief, config, view);
   const auto things = convexThings(view.image, config.range_noise);
 
   const auto add = [&](const Candidate& c, std::int32_t thing) {

@@ -25,14 +25,12 @@ class ObjectPoints {
   }
 
   /// The object with the nearest point within the radius; of equally near points the first counts.
-  [[nodiscard]] std::optional<std::size_t> nearest(const Eigen::Vector3f& p) const {
-    const Eigen::Vector3i key = floorOf(p.cast<double>() / radius_);
+  [[nodiscard]] std::optional<std::size_t> nearest(const Eigen::Vector3f& p) {
+    lookAround(floorOf(p.cast<double>() / radius_));
     const auto radius = static_cast<float>(radius_);
     float best = radius * radius;
     std::optional<std::size_t> object;
-    for (int n = 0; n < 27; ++n) {
-      const auto voxel = voxels_.find(key + Eigen::Vector3i(n / 9 - 1, n / 3 % 3 - 1, n % 3 - 1));
-      if (voxel == VoxelIndex::kNone) continue;
+    for (const auto voxel : around_) {
       for (auto at = last_in_voxel_[voxel]; at != VoxelIndex::kNone; at = points_[at].previous) {
         const Eigen::Vector3f d = world_points_[points_[at].point] - p;
         const float distance = d.x() * d.x() + d.y() * d.y() + d.z() * d.z();
@@ -51,6 +49,18 @@ class ObjectPoints {
     std::size_t object;
   };
 
+  /// Finds the voxels that may hold what is near; points come in rows, so that mostly they are the last ones.
+  void lookAround(const Eigen::Vector3i& key) {
+    if (looked_around_ && key == key_) return;
+    looked_around_ = true;
+    key_ = key;
+    around_.clear();
+    for (int n = 0; n < 27; ++n) {
+      const auto voxel = voxels_.find(key + Eigen::Vector3i(n / 9 - 1, n / 3 % 3 - 1, n % 3 - 1));
+      if (voxel != VoxelIndex::kNone) around_.push_back(voxel);
+    }
+  }
+
   void add(std::uint32_t point, std::size_t object) {
     const auto voxel = voxels_.insert(floorOf(world_points_[point].cast<double>() / radius_));
     if (voxel == last_in_voxel_.size()) last_in_voxel_.push_back(VoxelIndex::kNone);
@@ -63,6 +73,10 @@ class ObjectPoints {
   VoxelIndex voxels_;
   std::vector<std::uint32_t> last_in_voxel_;
   std::vector<ObjectPoint> points_;
+
+  bool looked_around_ = false;
+  Eigen::Vector3i key_ = Eigen::Vector3i::Zero();
+  std::vector<std::uint32_t> around_;  ///< voxels that hold something, of those around `key_`
 };
 
 /// Sorts indices of which all but the first `sorted` have been added in ascending order.
@@ -85,7 +99,7 @@ void attachStrays(const Measurement& z, std::vector<TableSurface>& tables, std::
     for (const auto i : object) taken[i] = true;
     object_sizes.push_back(object.size());
   }
-  const ObjectPoints object_points(z.world_points, objects, config.cluster_tolerance);
+  ObjectPoints object_points(z.world_points, objects, config.cluster_tolerance);
 
   const Eigen::Vector3d origin = z.origin();
   const auto isOverTable = [&](const Eigen::AlignedBox3d& box) {

@@ -173,20 +173,39 @@ std::vector<CellMask> SurfaceGrid::patches(double gap, double hidden_gap, std::s
 }
 
 CellMask SurfaceGrid::hull(const CellMask& mask) const {
+  struct Row {
+    int first = 0;
+    int last = -1;
+  };
   // The ends of each row are enough.
   std::vector<Eigen::Vector2d> ends;
+  std::vector<Row> held(static_cast<std::size_t>(rows_));
+  const auto cell = [&](int row, int column) {
+    return static_cast<std::size_t>(row) * static_cast<std::size_t>(columns_) +
+           static_cast<std::size_t>(column);
+  };
   for (int row = 0; row < rows_; ++row) {
-    const auto begin = mask.begin() + static_cast<std::ptrdiff_t>(row) * columns_;
-    const auto first = std::find(begin, begin + columns_, 1);
-    if (first == begin + columns_) continue;
-    auto last = begin + columns_ - 1;
-    while (*last == 0) --last;
-    ends.push_back(center(static_cast<std::size_t>(first - mask.begin())));
-    ends.push_back(center(static_cast<std::size_t>(last - mask.begin())));
+    auto& [first, last] = held[static_cast<std::size_t>(row)];
+    while (first < columns_ && !mask[cell(row, first)]) ++first;
+    if (first == columns_) continue;
+    last = columns_ - 1;
+    while (!mask[cell(row, last)]) --last;
+    ends.push_back(center(cell(row, first)));
+    ends.push_back(center(cell(row, last)));
   }
   const auto polygon = convexHull(std::move(ends));
   CellMask result = mask;
-  for (std::size_t i = 0; i < size(); ++i) result[i] = result[i] || inside(polygon, center(i));
+  for (int row = 0; row < rows_; ++row) {
+    const auto isInside = [&](int column) { return inside(polygon, center(cell(row, column))); };
+    auto [first, last] = held[static_cast<std::size_t>(row)];
+    if (first == columns_) {  // between rows that hold something, or beyond them
+      for (first = 0; first < columns_ && !isInside(first);) ++first;
+      last = first - 1;
+    }
+    while (first > 0 && isInside(first - 1)) --first;
+    while (last + 1 < columns_ && isInside(last + 1)) ++last;
+    for (int column = first; column <= last; ++column) result[cell(row, column)] = 1;
+  }
   return result;
 }
 

@@ -42,38 +42,54 @@ std::size_t index(const InverseDepthImage& image, int u, int v) {
 
 /// Numbers the 4-connected parts of equal `group` among whose neighbours w differs by less than `step`;
 /// returns how many there are.
-template <typename Group>
-int connectedParts(const InverseDepthImage& image, const Group& group, double step, Labels& label) {
+int connectedParts(const InverseDepthImage& image, const Labels& group, double step, Labels& label) {
   label.assign(image.size(), SurfacePatches::kNone);
   const auto most = static_cast<float>(step);
-  std::vector<int> stack;
+  const auto width = static_cast<std::size_t>(image.width);
+  std::vector<std::size_t> stack;
   int parts = 0;
-  for (int seed = 0; seed < image.width * image.height; ++seed) {
-    const auto s = static_cast<std::size_t>(seed);
-    if (!image.object[s] || label[s] >= 0) continue;
-    const auto id = group(seed);
-    label[s] = parts;
+  for (std::size_t seed = 0; seed < image.size(); ++seed) {
+    if (!image.object[seed] || label[seed] >= 0) continue;
+    const auto id = group[seed];
+    label[seed] = parts;
     stack.push_back(seed);
     while (!stack.empty()) {
-      const int at = stack.back();
+      const std::size_t at = stack.back();
       stack.pop_back();
-      const float w = image.w[static_cast<std::size_t>(at)];
-      const int u = at % image.width;
-      const auto enter = [&](bool inside, int to) {
-        if (!inside) return;
-        const auto t = static_cast<std::size_t>(to);
-        if (!image.object[t] || label[t] >= 0 || std::abs(image.w[t] - w) >= most || group(to) != id) return;
-        label[t] = parts;
+      const float w = image.w[at];
+      const auto enter = [&](std::size_t to) {
+        if (!image.object[to] || label[to] >= 0 || group[to] != id || std::abs(image.w[to] - w) >= most) {
+          return;
+        }
+        label[to] = parts;
         stack.push_back(to);
       };
-      enter(u > 0, at - 1);
-      enter(u + 1 < image.width, at + 1);
-      enter(at >= image.width, at - image.width);
-      enter(at + image.width < image.width * image.height, at + image.width);
+      const std::size_t u = at % width;
+      if (u > 0) enter(at - 1);
+      if (u + 1 < width) enter(at + 1);
+      if (at >= width) enter(at - width);
+      if (at + width < image.size()) enter(at + width);
     }
     ++parts;
   }
   return parts;
+}
+
+/// The square cells of `cell` pixels, numbered.
+Labels squares(const InverseDepthImage& image, int cell) {
+  Labels square;
+  square.reserve(image.size());
+  const int columns = image.width / cell + 1;
+  for (int v = 0; v < image.height; ++v) {
+    for (int u = 0; u < image.width; ++u) square.push_back(v / cell * columns + u / cell);
+  }
+  return square;
+}
+
+/// The planes of the patches, from their moments.
+void fitPlanes(double ridge, SurfacePatches& patches) {
+  patches.planes.clear();
+  for (const auto& m : patches.moments) patches.planes.push_back(m.plane(ridge));
 }
 
 void fit(const InverseDepthImage& image, double ridge, std::size_t count, SurfacePatches& patches) {
@@ -85,42 +101,49 @@ void fit(const InverseDepthImage& image, double ridge, std::size_t count, Surfac
       if (label >= 0) patches.moments[static_cast<std::size_t>(label)].add(u, v, image.w[i]);
     }
   }
-  patches.planes.clear();
-  for (const auto& m : patches.moments) patches.planes.push_back(m.plane(ridge));
+  fitPlanes(ridge, patches);
 }
 
-/// One round: every pixel takes the best of the patches at itself and around it.
+/// What it costs a pixel to belong to a patch.
+struct PatchCost {
+  PatchPlane plane;
+  double penalty;
+};
+
+/// One round: every pixel takes the best of the patches at itself and around it, whose planes follow.
 void assign(const InverseDepthImage& image, const PatchScales& scales, SurfacePatches& patches) {
   const double per_scatter2 = 1.0 / (scales.scatter * scales.scatter);
   const double per_cell2 = kCompactness / (scales.cell * scales.cell);
   const double tiny = kTinyShare * scales.cell * scales.cell;
+  std::vector<PatchCost> costs;
+  costs.reserve(patches.size());
+  for (std::size_t k = 0; k < patches.size(); ++k) {
+    costs.push_back({patches.planes[k], patches.moments[k].n < tiny ? kTinyPenalty : 0.0});
+  }
   const int reach = std::max(2, scales.cell / 4);
   const std::array<std::array<int, 2>, 8> around{
       {{-1, -1}, {1, -1}, {-1, 1}, {1, 1}, {-reach, 0}, {reach, 0}, {0, -reach}, {0, reach}}};
+  std::array<std::ptrdiff_t, 8> steps;
+  for (std::size_t n = 0; n < steps.size(); ++n) steps[n] = around[n][1] * image.width + around[n][0];
   Labels next(patches.label);
   for (int v = 0; v < image.height; ++v) {
+    const bool rows_inside = v >= reach && v + reach < image.height;
     for (int u = 0; u < image.width; ++u) {
       const std::size_t i = index(image, u, v);
       const auto own = patches.label[i];
       if (own < 0) continue;
       const auto cost = [&](std::int32_t label) {
-        const auto k = static_cast<std::size_t>(label);
-        const PatchPlane& p = patches.planes[k];
+        const auto& [p, penalty] = costs[static_cast<std::size_t>(label)];
         const double r = image.w[i] - p.at(u, v);
         const double du = u - p.u;
         const double dv = v - p.v;
-        return std::min(kMostMisfit, r * r * per_scatter2) + per_cell2 * (du * du + dv * dv) +
-               (patches.moments[k].n < tiny ? kTinyPenalty : 0.0);
+        return std::min(kMostMisfit, r * r * per_scatter2) + per_cell2 * (du * du + dv * dv) + penalty;
       };
       double least = -1.0;
       std::int32_t best = own;
       std::int32_t last = own;
-      for (const auto& [du, dv] : around) {
-        const int x = u + du;
-        const int y = v + dv;
-        if (x < 0 || y < 0 || x >= image.width || y >= image.height) continue;
-        const auto label = patches.label[index(image, x, y)];
-        if (label < 0 || label == own || label == last) continue;
+      const auto consider = [&](std::int32_t label) {
+        if (label < 0 || label == own || label == last) return;
         last = label;
         if (least < 0.0) least = cost(own);
         const double c = cost(label);
@@ -128,11 +151,25 @@ void assign(const InverseDepthImage& image, const PatchScales& scales, SurfacePa
           least = c;
           best = label;
         }
+      };
+      const std::int32_t* const here = patches.label.data() + i;
+      if (rows_inside && u >= reach && u + reach < image.width) {
+        for (const auto step : steps) consider(here[step]);
+      } else {
+        for (std::size_t n = 0; n < steps.size(); ++n) {
+          const int x = u + around[n][0];
+          const int y = v + around[n][1];
+          if (x >= 0 && y >= 0 && x < image.width && y < image.height) consider(here[steps[n]]);
+        }
       }
+      if (best == own) continue;
       next[i] = best;
+      patches.moments[static_cast<std::size_t>(own)].add(u, v, image.w[i], -1.0);
+      patches.moments[static_cast<std::size_t>(best)].add(u, v, image.w[i]);
     }
   }
   patches.label = std::move(next);
+  fitPlanes(scales.ridge, patches);
 }
 
 /// Gives scraps of a few pixels to the patch beside them that explains them best; renumbers the rest.
@@ -198,18 +235,11 @@ PatchScales::PatchScales(const InverseDepthImage& image, double range_noise)
 
 SurfacePatches surfacePatches(const InverseDepthImage& image, const PatchScales& scales) {
   SurfacePatches patches;
-  const auto cellOf = [&](int at) {
-    return at / image.width / scales.cell * image.width + at % image.width / scales.cell;
-  };
-  int count = connectedParts(image, cellOf, 2.0 * scales.jump, patches.label);
+  int count = connectedParts(image, squares(image, scales.cell), 2.0 * scales.jump, patches.label);
   fit(image, scales.ridge, static_cast<std::size_t>(count), patches);
-  for (int round = 0; round < kRounds; ++round) {
-    assign(image, scales, patches);
-    fit(image, scales.ridge, static_cast<std::size_t>(count), patches);
-  }
+  for (int round = 0; round < kRounds; ++round) assign(image, scales, patches);
   const Labels assigned = patches.label;
-  const auto patchOf = [&](int at) { return assigned[static_cast<std::size_t>(at)]; };
-  count = connectedParts(image, patchOf, 4.0 * scales.jump, patches.label);
+  count = connectedParts(image, assigned, 4.0 * scales.jump, patches.label);
   fit(image, scales.ridge, static_cast<std::size_t>(count), patches);
   fit(image, scales.ridge, dissolveScraps(image, scales, patches), patches);
   return patches;
