@@ -11,7 +11,7 @@ namespace {
 constexpr double kTrimmed = 0.85;  // share of the pairs that is believed
 constexpr std::size_t kLeastPairs = 6;
 constexpr float kBeyond = 0.01F;    // m beyond an edge, where nothing of the object must be
-constexpr float kOneSide = 0.7F;    // cosine between normals of one side of an object
+constexpr float kOneSide = RegistrationSurface::kOneSide;
 constexpr float kOverEdge = 0.75F;  // spacings beyond an edge: less is chance
 
 /// Every how many of `size` points make about `samples` of them.
@@ -140,6 +140,21 @@ float ClosestPoints::meanDistance(const Eigen::Isometry3f& motion, float radius,
   return sum / static_cast<float>(std::max<std::size_t>(1, asked));
 }
 
+std::optional<SurfacePoints::Neighbour> ClosestPoints::modelFor(std::size_t seen, const Eigen::Isometry3f& back,
+                                                                float radius) const {
+  const Eigen::Vector3f at = back * seen_.points()[seen];
+  if (seen_ends_[seen] == 0) return model_.nearest(at, radius);
+  return model_.nearestOnSide(at, back.linear() * seen_.normal(seen), radius);
+}
+
+std::optional<SurfacePoints::Neighbour> ClosestPoints::seenFor(std::size_t model,
+                                                               const Eigen::Isometry3f& motion,
+                                                               float radius) const {
+  const Eigen::Vector3f at = motion * model_.points()[model];
+  if (model_ends_[model] == 0) return seen_.nearest(at, radius);
+  return seen_.nearestOnSide(at, motion.linear() * model_.normal(model), radius);
+}
+
 ClosestPoints::Pairs ClosestPoints::pairsOf(const Eigen::Isometry3f& motion, float radius,
                                             std::size_t samples) const {
   Pairs pairs;
@@ -153,12 +168,11 @@ ClosestPoints::Pairs ClosestPoints::pairsOf(const Eigen::Isometry3f& motion, flo
   };
   const Eigen::Isometry3f back = motion.inverse();
   for (std::size_t i = 0; i < seen_.size(); i += strideFor(seen_.size(), samples)) {
-    if (const auto p = model_.nearest(back * seen_.points()[i], radius)) add(p->index, i, true);
+    if (const auto p = modelFor(i, back, radius)) add(p->index, i, true);
   }
   for (std::size_t i = 0; i < model_.size(); i += strideFor(model_.size(), samples)) {
-    const Eigen::Vector3f at = motion * model_.points()[i];
-    const auto q = seen_.nearest(at, radius);
-    if (q && !isHidden(at)) add(i, q->index, false);
+    const auto q = seenFor(i, motion, radius);
+    if (q && !isHidden(motion * model_.points()[i])) add(i, q->index, false);
   }
   return pairs;
 }
@@ -180,7 +194,7 @@ std::optional<Eigen::Vector3f> ClosestPoints::edgeOf(const Pair& pair,
 
 Eigen::Isometry3f ClosestPoints::refined(Eigen::Isometry3f motion, int steps, float near, Freedom freedom,
                                          std::size_t samples) const {
-  constexpr double kPlainWeight = 0.01;  // where there is no outline
+  constexpr double kPlainWeight = 0.002;  // where there is no outline
   for (int step = 0; step < steps; ++step) {
     const Eigen::Isometry3f before = motion;
     Pairs pairs = pairsOf(motion, std::max(near, 0.020F - 0.0025F * static_cast<float>(step)), samples);
@@ -220,13 +234,12 @@ double ClosestPoints::outlineError(const Eigen::Isometry3f& motion, float radius
   const Eigen::Isometry3f back = motion.inverse();
   for (std::size_t i = 0; i < seen_.size(); ++i) {
     if (seen_ends_[i] == 0) continue;
-    if (const auto p = model_.nearest(back * seen_.points()[i], radius)) count({p->index, i, 0.0F, true});
+    if (const auto p = modelFor(i, back, radius)) count({p->index, i, 0.0F, true});
   }
   for (std::size_t i = 0; i < model_.size(); ++i) {
     if (model_ends_[i] == 0) continue;
-    const Eigen::Vector3f at = motion * model_.points()[i];
-    const auto q = seen_.nearest(at, radius);
-    if (q && !isHidden(at)) count({i, q->index, 0.0F, false});
+    const auto q = seenFor(i, motion, radius);
+    if (q && !isHidden(motion * model_.points()[i])) count({i, q->index, 0.0F, false});
   }
   // Few of them are chance.
   constexpr double kOutlinePoints = 0.03;  // of all points

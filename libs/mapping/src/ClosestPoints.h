@@ -53,6 +53,13 @@ class ClosestPoints {
   using Pairs = std::vector<Pair>;
 
   static bool trim(Pairs& pairs);
+  /// The nearest point of the other surface. An end of a side is compared with that side: where a side goes on
+  /// beyond it, the nearest point is of the side that meets it there.
+  [[nodiscard]] std::optional<SurfacePoints::Neighbour> modelFor(std::size_t seen, const Eigen::Isometry3f& back,
+                                                                 float radius) const;
+  [[nodiscard]] std::optional<SurfacePoints::Neighbour> seenFor(std::size_t model,
+                                                                const Eigen::Isometry3f& motion,
+                                                                float radius) const;
   [[nodiscard]] Pairs pairsOf(const Eigen::Isometry3f& motion, float radius, std::size_t samples) const;
   /// The edge at which a pair should meet: its direction, along which the distance counts.
   [[nodiscard]] std::optional<Eigen::Vector3f> edgeOf(const Pair& pair,

@@ -50,15 +50,21 @@ class Registrar {
       rest.verdict = Match::different;
       return rest;
     }
-    const Registration* best = &*std::max_element(candidates.begin(), candidates.end(), fitsWorse);
-    // A round thing fits at any turn: the one it had is kept.
-    for (const Registration& c : candidates) {
-      if (isRival(c, *best) && turn(c.motion) < turn(best->motion) - kOtherTurn) best = &c;
+    // A few points tell what is nearly square by chance: all are asked before one turn is chosen.
+    const Registration first = *std::max_element(candidates.begin(), candidates.end(), fitsWorse);
+    for (Registration& c : candidates) {
+      if (fitsNearlyAs(c, first, 2.0 * config_.rival_score)) c = polished(c);
     }
-    Registration result = polished(*best);
+    const Registration best = *std::max_element(candidates.begin(), candidates.end(), fitsWorse);
+    std::erase_if(candidates, [&](const auto& c) { return !fitsNearlyAs(c, best, config_.rival_score); });
+    // A round thing fits at any turn: the one it had is kept.
+    Registration result = best;
+    for (const Registration& c : candidates) {
+      if (turn(c.motion) < turn(result.motion) - kOtherTurn) result = c;
+    }
     for (const Registration& c : candidates) {
       const double other = std::remainder(yaw(c.motion) - yaw(result.motion), 2.0 * std::numbers::pi);
-      if (isRival(c, *best) && std::abs(other) > kOtherTurn) result.other_turns.push_back(other);
+      if (std::abs(other) > kOtherTurn) result.other_turns.push_back(other);
     }
     result.rest_score = rest.score;
     return result;
@@ -75,9 +81,8 @@ class Registrar {
   }
   static bool fitsWorse(const Registration& a, const Registration& b) { return quality(a) < quality(b); }
 
-  /// Whether a fit is as good as the best, by another turn.
-  [[nodiscard]] bool isRival(const Registration& r, const Registration& best) const {
-    return r.verdict == best.verdict && quality(r) >= quality(best) - config_.rival_score;
+  [[nodiscard]] static bool fitsNearlyAs(const Registration& r, const Registration& best, double margin) {
+    return r.verdict == best.verdict && quality(r) >= quality(best) - margin;
   }
 
   static double turn(const Eigen::Isometry3d& motion) { return Eigen::AngleAxisd(motion.rotation()).angle(); }
@@ -87,7 +92,7 @@ class Registrar {
   [[nodiscard]] Registration polished(const Registration& start) const {
     const Eigen::Isometry3f from = judge_.toLocal(start.motion);
     Registration best = judge_.judged(from, seen_.size() + model_.size());
-    for (const Freedom freedom : {Freedom::yaw_and_shift, Freedom::rigid}) {
+    for (const Freedom freedom : {Freedom::yaw_and_shift, Freedom::yaw_and_shift, Freedom::rigid}) {
       const Registration r = judge_.judged(
           points_.refined(judge_.toLocal(best.motion), 8, judge_.near(), freedom, 2 * kFinePoints),
           seen_.size() + model_.size());

@@ -3,6 +3,7 @@
 
 #include <Eigen/Geometry>
 #include <bitset>
+#include <cmath>
 #include <cstdint>
 #include <functional>
 #include <limits>
@@ -49,6 +50,14 @@ class RegistrationSurface {
                                                                 float radius) const {
     return surface_.nearest(p, radius);
   }
+  /// Nearest point of a side that faces along `normal`, or against it.
+  [[nodiscard]] std::optional<SurfacePoints::Neighbour> nearestOnSide(const Eigen::Vector3f& p,
+                                                                      const Eigen::Vector3f& normal,
+                                                                      float radius) const {
+    return surface_.nearestOf(
+        p, radius, [&](std::size_t i) { return std::abs(normal.dot(normals_[i])) >= kOneSide; });
+  }
+  static constexpr float kOneSide = 0.7F;  ///< cosine between normals of one side of an object
 
  private:
   void describe();

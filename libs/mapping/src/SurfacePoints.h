@@ -30,6 +30,15 @@ class SurfacePoints {
   };
   /// Nearest point; nothing if there is none within `radius`.
   [[nodiscard]] std::optional<Neighbour> nearest(const Eigen::Vector3f& p, float radius) const;
+  /// Nearest point for which `keep(index)` is true; nothing if there is none within `radius`.
+  template <typename Keep>
+  [[nodiscard]] std::optional<Neighbour> nearestOf(const Eigen::Vector3f& p, float radius,
+                                                   const Keep& keep) const {
+    NearestOf<Keep> result{keep, {points_.size(), radius * radius}};
+    if (!points_.empty()) tree_->findNeighbors(result, p.data(), nanoflann::SearchParams());
+    if (result.best.index == points_.size()) return std::nullopt;
+    return result.best;
+  }
   /// Distance of a point's n-th neighbour beside itself, m; of the last one if there are fewer.
   [[nodiscard]] float distanceToNeighbour(const Eigen::Vector3f& p, std::size_t n) const;
   /// Calls `visit(index)` for every point within `radius`.
@@ -64,6 +73,21 @@ class SurfacePoints {
       return true;
     }
     [[nodiscard]] float worstDist() const { return squared_radius; }
+    [[nodiscard]] bool full() const { return true; }
+  };
+
+  /// A result set that keeps the nearest of some.
+  template <typename Keep>
+  struct NearestOf {
+    using DistanceType = float;
+    const Keep& keep;
+    Neighbour best;
+
+    bool addPoint(float squared_distance, std::size_t index) {
+      if (squared_distance < best.squared_distance && keep(index)) best = {index, squared_distance};
+      return true;
+    }
+    [[nodiscard]] float worstDist() const { return best.squared_distance; }
     [[nodiscard]] bool full() const { return true; }
   };
 
