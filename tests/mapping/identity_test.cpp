@@ -110,10 +110,10 @@ TEST(SeamVotes, CountScansInWhateverOrderTheyCome) {
   const std::vector<const PointCloud*> joined{&whole};
   SeamVotes a;
   SeamVotes b;
-  EXPECT_EQ(a.add(apart, kOrigin), SeamVotes::cellsOf(whole));
-  a.add(joined, kOrigin);
-  b.add(joined, kOrigin);
-  b.add(apart, kOrigin);
+  EXPECT_EQ(a.add(apart, {}, kOrigin), SeamVotes::cellsOf(whole));
+  a.add(joined, {}, kOrigin);
+  b.add(joined, {}, kOrigin);
+  b.add(apart, {}, kOrigin);
   EXPECT_EQ(a, b);
   EXPECT_TRUE(a.meet(SeamVotes::cellsOf(kLeft), SeamVotes::cellsOf(kRight)));
   EXPECT_TRUE(a.meet(SeamVotes::cellsOf(kRight), SeamVotes::cellsOf(kLeft)));
@@ -122,13 +122,13 @@ TEST(SeamVotes, CountScansInWhateverOrderTheyCome) {
 TEST(SeamVotes, WhatDoesNotMeetHasNoSeam) {
   const PointCloud far = front(0.2, 0.3, 0.7, 0.8);
   SeamVotes seams;
-  seams.add(std::vector<const PointCloud*>{&kLeft, &far}, kOrigin);
+  seams.add(std::vector<const PointCloud*>{&kLeft, &far}, {}, kOrigin);
   EXPECT_FALSE(seams.meet(SeamVotes::cellsOf(kLeft), SeamVotes::cellsOf(far)));
 }
 
 TEST(SeamVotes, WhatIsForgottenLeavesNothing) {
   SeamVotes seams;
-  const auto cells = seams.add(std::vector<const PointCloud*>{&kLeft, &kRight}, kOrigin);
+  const auto cells = seams.add(std::vector<const PointCloud*>{&kLeft, &kRight}, {}, kOrigin);
   const auto left = SeamVotes::cellsOf(kLeft);
   seams.forget(left);
   EXPECT_FALSE(seams.meet(left, SeamVotes::cellsOf(kRight)));

@@ -12,7 +12,7 @@ namespace hoctomap {
 namespace {
 
 std::string header() {
-  std::string text = "x,y,z";
+  std::string text = "x,y,z,object";
   for (std::size_t d = 0; d < SeamVotes::kDirections; ++d) text += ",e" + std::to_string(d);
   return text + '\n';
 }
@@ -42,7 +42,8 @@ std::int32_t takeIndex(std::string_view& row, const std::string& where) {
 std::string seamsText(const SeamVotes& seams) {
   std::string text = header();
   for (const auto& [cell, votes] : seams.all()) {
-    text += std::to_string(cell.x) + "," + std::to_string(cell.y) + "," + std::to_string(cell.z);
+    text += std::to_string(cell.x) + "," + std::to_string(cell.y) + "," + std::to_string(cell.z) +
+            (votes.is_object ? ",1" : ",0");
     for (std::size_t d = 0; d < SeamVotes::kDirections; ++d) {
       text += ',';
       if (votes.known[d]) text += std::to_string(votes.evidence[d]);
@@ -64,6 +65,9 @@ SeamVotes parseSeams(const std::string& text, const std::string& name) {
     cell.y = takeIndex(rest, where);
     cell.z = takeIndex(rest, where);
     SeamVotes::Votes votes;
+    const std::int32_t is_object = takeIndex(rest, where);
+    if (is_object != 0 && is_object != 1) throw MapError(where + ": is no row of seam votes");
+    votes.is_object = is_object == 1;
     for (std::size_t d = 0; d < SeamVotes::kDirections; ++d) {
       const auto evidence = take(rest, d + 1 < SeamVotes::kDirections ? ',' : '\n', where);
       if (!evidence) continue;

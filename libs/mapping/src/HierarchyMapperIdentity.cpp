@@ -70,8 +70,10 @@ SegmentRegions regionsOf(const PointCloud& world_points, const SurfaceRegions& r
 void HierarchyMapper::settleIdentity(const Measurement& z, std::vector<LabelledPart>& parts,
                                      const NodeEvidence& evidence, UpdateReport& report) {
   std::vector<const PointCloud*> points;
+  std::vector<const PointCloud*> ground;
   std::set<NodeId> near;
   for (const LabelledPart& part : parts) {
+    if (part.structure == Structure::plane) ground.push_back(&part.world_points);
     if (part.structure != Structure::cluster) continue;
     points.push_back(&part.world_points);
     for (const NodeId id : hierarchy_.idsNear(worldBounds(part.box))) {
@@ -79,7 +81,7 @@ void HierarchyMapper::settleIdentity(const Measurement& z, std::vector<LabelledP
     }
   }
   if (points.empty()) return;
-  const SurfaceRegions regions(seams_, seams_.add(points, z.origin()));
+  const SurfaceRegions regions(seams_, seams_.add(points, ground, z.origin()));
   NodeRegions held(hierarchy_, std::vector<NodeId>(near.begin(), near.end()), regions);
   mergeOwners(z, regions, held, parts, report);
   splitHolders(z, regions, held, report);

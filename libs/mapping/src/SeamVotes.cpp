@@ -5,7 +5,9 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdlib>
+#include <limits>
 #include <unordered_map>
+#include <unordered_set>
 #include <utility>
 #include <vector>
 
@@ -80,8 +82,39 @@ Eigen::Vector3d cornerOf(const Cell& cell) {
   return Eigen::Vector3d(cell.x, cell.y, cell.z) * static_cast<double>(SeamVotes::kCell);
 }
 
-/// Cells with enough points to belong to a segment, in order.
-std::vector<SeenCell> seenCells(std::span<const PointCloud* const> segments) {
+constexpr std::size_t kGround = std::numeric_limits<std::size_t>::max();  // owner of what is no segment's
+
+/// Of ground that lies near a segment: its cells in which no segment has a point.
+void addGround(std::span<const PointCloud* const> ground, std::unordered_map<std::uint64_t, SeenCell>& by_key) {
+  std::unordered_set<std::uint64_t> near;  // cells of pairs with a segment's
+  for (const auto& [key, seen] : by_key) {
+    for (std::size_t d = 0; d < SeamVotes::kDirections; ++d) {
+      for (const int sign : {1, -1}) near.insert(cellKey(SeamVotes::partner(seen.cell, d, sign)));
+    }
+  }
+  std::uint64_t last_key = 0;
+  SeenCell* last = nullptr;
+  for (const PointCloud* points : ground) {
+    for (const auto& p : *points) {
+      const Cell cell = SeamVotes::cellOf(p);
+      const std::uint64_t key = cellKey(cell);
+      if (last == nullptr || key != last_key) {  // points come in rows
+        last_key = key;
+        last = nullptr;
+        if (!near.contains(key)) continue;
+        SeenCell& seen = by_key[key];
+        if (seen.points > 0 && seen.owner != kGround) continue;
+        seen.cell = cell;
+        last = &seen;
+      }
+      last->add(kGround, p.cast<double>() - cornerOf(cell));
+    }
+  }
+}
+
+/// Cells with enough points to belong to a segment or the ground, in order.
+std::vector<SeenCell> seenCells(std::span<const PointCloud* const> segments,
+                                std::span<const PointCloud* const> ground) {
   constexpr std::uint32_t kLeastPoints = 3;  // fewer may be strays
   std::unordered_map<std::uint64_t, SeenCell> by_key;
   for (std::size_t s = 0; s < segments.size(); ++s) {
@@ -92,6 +125,7 @@ std::vector<SeenCell> seenCells(std::span<const PointCloud* const> segments) {
       seen.add(s, p.cast<double>() - cornerOf(cell));
     }
   }
+  addGround(ground, by_key);
   std::vector<SeenCell> cells;
   for (const auto& [key, seen] : by_key) {
     if (seen.most >= kLeastPoints) cells.push_back(seen);
@@ -124,9 +158,10 @@ SeamVotes::Cell SeamVotes::partner(const Cell& cell, std::size_t direction, int 
   return {cell.x + sign * d.x, cell.y + sign * d.y, cell.z + sign * d.z};
 }
 
-SeamVotes::Cells SeamVotes::add(std::span<const PointCloud* const> segments, const Eigen::Vector3d& origin) {
+SeamVotes::Cells SeamVotes::add(std::span<const PointCloud* const> segments,
+                                std::span<const PointCloud* const> ground, const Eigen::Vector3d& origin) {
   constexpr int kMost = 1000;
-  const std::vector<SeenCell> cells = seenCells(segments);
+  const std::vector<SeenCell> cells = seenCells(segments, ground);
   std::vector<SurfacePiece> surface;
   std::unordered_map<std::uint64_t, std::size_t> index;
   for (const SeenCell& seen : cells) {
@@ -135,12 +170,17 @@ SeamVotes::Cells SeamVotes::add(std::span<const PointCloud* const> segments, con
   }
   Cells shown;
   for (std::size_t i = 0; i < cells.size(); ++i) {
-    shown.insert(shown.end(), cells[i].cell);
+    const bool is_object = cells[i].owner != kGround;
     Votes& votes = votes_[cells[i].cell];
+    if (is_object) {
+      shown.insert(shown.end(), cells[i].cell);
+      votes.is_object = true;
+    }
     for (std::size_t d = 0; d < kDirections; ++d) {
       const auto found = index.find(cellKey(partner(cells[i].cell, d)));
       if (found == index.end()) continue;
       const std::size_t j = found->second;
+      if (!is_object && cells[j].owner == kGround) continue;
       const int evidence = seamEvidence(passage(surface[i], surface[j]), cells[i].owner != cells[j].owner);
       votes.known.set(d);
       votes.evidence[d] = static_cast<std::int16_t>(std::clamp(votes.evidence[d] + evidence, -kMost, kMost));
@@ -166,6 +206,7 @@ void SeamVotes::assume(const Cells& cells) {
   forget(cells);
   for (const Cell& cell : cells) {
     Votes& votes = votes_[cell];
+    votes.is_object = true;
     for (std::size_t d = 0; d < kDirections; ++d) {
       if (!cells.contains(partner(cell, d))) continue;
       votes.known.set(d);

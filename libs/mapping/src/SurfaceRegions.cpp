@@ -144,22 +144,25 @@ class Merging {
   }
 
   /// Whether a piece is covered by a thing: the base below an overhanging lid, whose seam is never seen. Or
-  /// held from the side: it does not reach down as far, nor lies on top. A handle, that is: what is not held
-  /// falls.
+  /// held from the side: it does not reach down as far, nor lies on top, and hardly meets anything else that it
+  /// could rest on. A handle, that is: what is not held falls.
   [[nodiscard]] bool isPart(Index whole, Index piece) const {
     return isHeldBy(whole, piece) || isCoveredBy(whole, piece);
   }
 
   [[nodiscard]] bool isHeldBy(Index whole, Index piece) const {
     constexpr std::int32_t kOffGround = 1;  // cells
-    const auto [low, high] = heights(whole);
-    const auto [piece_low, piece_high] = heights(piece);
+    constexpr int kLeastOfBorder = 3;        // times what it meets beside the whole
+    int elsewhere = 0;
+    for (const auto& [other, border] : borders_[piece]) elsewhere += other == whole ? 0 : border.pairs;
+    if (borders_[piece].at(whole).pairs < kLeastOfBorder * elsewhere) return false;
+    const auto [low, high] = heights(whole, 1.0);
+    const auto [piece_low, piece_high] = heights(piece, kMostly);
     return piece_low >= low + kOffGround && 2 * piece_low < low + high && piece_high <= high;
   }
 
   /// Whether nearly all of a piece lies below a cell of the thing, or of one beside that.
   [[nodiscard]] bool isCoveredBy(Index whole, Index piece) const {
-    constexpr double kMostly = 0.9;
     std::map<std::pair<std::int32_t, std::int32_t>, std::int32_t> top;
     for (const Index i : members_[whole]) {
       for (int step = 0; step < 9; ++step) {
@@ -175,14 +178,16 @@ class Merging {
     return static_cast<double>(covered) >= kMostly * static_cast<double>(members_[piece].size());
   }
 
-  /// Lowest and highest cell.
-  [[nodiscard]] std::pair<std::int32_t, std::int32_t> heights(Index region) const {
-    const auto [low, high] =
-        std::minmax_element(members_[region].begin(), members_[region].end(),
-                            [this](Index a, Index b) { return cells_[a].z < cells_[b].z; });
-    return {cells_[*low].z, cells_[*high].z};
+  /// Lowest and highest cell; as many are left out at either end as are no part of `share`.
+  [[nodiscard]] std::pair<std::int32_t, std::int32_t> heights(Index region, double share) const {
+    std::vector<std::int32_t> z;
+    for (const Index i : members_[region]) z.push_back(cells_[i].z);
+    std::sort(z.begin(), z.end());
+    const auto left_out = static_cast<std::size_t>((1.0 - share) * static_cast<double>(z.size()));
+    return {z[left_out], z[z.size() - 1 - left_out]};
   }
 
+  static constexpr double kMostly = 0.9;  // of a piece: cells along seams go either way
   std::vector<Cell> cells_;
   std::vector<std::unordered_map<Index, Border>> borders_;
   std::vector<Index> parent_;
@@ -196,7 +201,9 @@ std::vector<Cell> connected(const SeamVotes& votes, const SeamVotes::Cells& seed
   SeamVotes::Cells found;
   std::vector<Cell> open;
   const auto reach = [&](const Cell& cell) {
-    if (all.contains(cell) && found.insert(cell).second) open.push_back(cell);
+    const auto of_cell = all.find(cell);
+    if (of_cell == all.end() || !of_cell->second.is_object) return;
+    if (found.insert(cell).second) open.push_back(cell);
   };
   for (const Cell& seed : seeds) reach(seed);
   while (!open.empty()) {

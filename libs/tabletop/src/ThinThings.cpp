@@ -5,6 +5,7 @@
 #include <array>
 #include <cmath>
 #include <limits>
+#include <unordered_set>
 
 #include "ObjectImage.h"
 #include "ScanBlocks.h"
@@ -28,6 +29,7 @@ constexpr double kMostOpen = 0.4;    // of its border: edges of tables are blurr
 constexpr double kMostRise = 0.025;  // m: what is thicker needs no rim
 constexpr double kSteepness = 0.6;   // of the rise, within the few pixels of a step
 constexpr double kLeastArea = 6e-4;  // m^2, as if facing the sensor
+constexpr double kUpright = 0.01;    // m: fronts that lean, or are round
 constexpr float kNothing = std::numeric_limits<float>::quiet_NaN();
 
 /// What of the table a picture shows.
@@ -37,6 +39,8 @@ struct RisePicture {
   std::vector<float> rise;          ///< m above the table; NaN: not near it
   std::vector<float> least;         ///< m, the rise that is evidence there
   std::vector<std::uint8_t> thick;  ///< something that rises for certain
+  std::vector<Eigen::Vector2f> place;  ///< m, seen from above
+  std::vector<float> upright;          ///< m: what is upright may be as far off, seen from above
 };
 
 std::size_t at(const RisePicture& picture, int u, int v) {
@@ -129,7 +133,7 @@ class RegionFinder {
     double steps = 0.0;
     int border = 0;
     int rim = 0;
-    int contact = 0;
+    std::vector<int> contact;  // pixels of the border at which something thicker goes up
     int open = 0;
     for (const int i : pixels) {
       const auto at_i = static_cast<std::size_t>(i);
@@ -147,7 +151,7 @@ class RegionFinder {
         constexpr int kFar = kWindow + kEdge;
         const auto beyond = offset(u, v, (1 + kFar) * du, (1 + kFar) * dv);
         if ((out && picture_.thick[*out]) || (beyond && picture_.thick[*beyond])) {
-          ++contact;
+          contact.push_back(i);
           continue;
         }
         if (!beyond || region[*beyond] == number) continue;
@@ -166,11 +170,51 @@ class RegionFinder {
     if (2.0 * n < kLeastBreadth * border) return false;
     const double step = steps / rim;
     if (rise > kMostRise * n || step < least / n || step < kSteepness * rise / n) return false;
-    if (contact <= kMostContact * border) return true;
-    std::erase_if(pixels, [&, most = std::min(kLevel * rise, kUneven * least) / n](int i) {
-      return std::abs(static_cast<double>(picture_.rise[static_cast<std::size_t>(i)]) - rise / n) >= most;
+    rise /= n;
+    least /= n;
+    if (static_cast<double>(contact.size()) <= kMostContact * border) {
+      leaveFronts(contact, rise + kUneven * least, pixels);
+      return true;
+    }
+    std::erase_if(pixels, [&, most = std::min(kLevel * rise, kUneven * least)](int i) {
+      return std::abs(static_cast<double>(picture_.rise[static_cast<std::size_t>(i)]) - rise) >= most;
     });
     return static_cast<double>(pixels.size()) > kLevelShare * n;
+  }
+
+  /// Takes out of a region what of it rises above `level` where something thicker goes up: the lower part of
+  /// the front of what stands on a thin thing.
+  void leaveFronts(const std::vector<int>& contact, double level, std::vector<int>& pixels) const {
+    std::unordered_set<int> high;
+    for (const int i : pixels) {
+      if (static_cast<double>(picture_.rise[static_cast<std::size_t>(i)]) > level) high.insert(i);
+    }
+    struct Front {
+      int pixel;
+      std::size_t foot;  ///< pixel of the border, over which it stands
+    };
+    std::vector<Front> front;
+    const auto enter = [&](int pixel, std::size_t foot) {
+      const auto at_pixel = static_cast<std::size_t>(pixel);
+      if (!high.contains(pixel) ||
+          (picture_.place[at_pixel] - picture_.place[foot]).norm() > picture_.upright[foot]) {
+        return;
+      }
+      high.erase(pixel);
+      front.push_back({pixel, foot});
+    };
+    for (const int i : contact) enter(i, static_cast<std::size_t>(i));
+    for (std::size_t k = 0; k < front.size(); ++k) {
+      const auto [i, foot] = front[k];
+      const int u = i % picture_.width;
+      if (u > 0) enter(i - 1, foot);
+      if (u + 1 < picture_.width) enter(i + 1, foot);
+      enter(i - picture_.width, foot);
+      enter(i + picture_.width, foot);
+    }
+    std::unordered_set<int> left;
+    for (const Front& f : front) left.insert(f.pixel);
+    std::erase_if(pixels, [&](int i) { return left.contains(i); });
   }
 
   [[nodiscard]] std::optional<std::size_t> offset(int u, int v, int du, int dv) const {
@@ -220,10 +264,12 @@ std::vector<Cluster> thinThings(const Measurement& z, const TableRelief& relief,
                                 const TabletopSegmentationConfig& config) {
   if (near.empty()) return {};
   const ObjectImage view = objectImage(z, near);
-  RisePicture picture{view.image.width, view.image.height, {}, {}, {}};
+  RisePicture picture{view.image.width, view.image.height, {}, {}, {}, {}, {}};
   picture.rise.assign(view.image.size(), kNothing);
   picture.least.assign(view.image.size(), 0.0F);
   picture.thick.assign(view.image.size(), 0);
+  picture.place.assign(view.image.size(), Eigen::Vector2f::Zero());
+  picture.upright.assign(view.image.size(), 0.0F);
   std::vector<float> range2(view.image.size(), 0.0F);
   for (const auto& c : candidates) {
     const auto pixel = view.pixel_of_point[c.point];
@@ -236,6 +282,8 @@ std::vector<Cluster> thinThings(const Measurement& z, const TableRelief& relief,
     picture.rise[pixel] = static_cast<float>(c.height - relief.at(p.x(), p.y()));
     picture.least[pixel] = static_cast<float>(c.least_rise);
     range2[pixel] = static_cast<float>(c.range * c.range);
+    picture.place[pixel] = z.world_points[c.point].head<2>();
+    picture.upright[pixel] = static_cast<float>(kUpright + config.noise(c.range));
   }
   smooth(picture);
   RegionFinder finder(picture, 1.0 / (view.image.fx * view.image.fy), range2);

@@ -48,7 +48,7 @@ struct Settings {
   bool monolithic = false;          ///< S(z) = {z}, one map, beams unbounded
   double association_margin = 0.0;  ///< m, by which boxes are grown in f_A
   bool contest_at_surface = true;   ///< of several segments in a node's box, those at its surface join it
-  bool seam_votes = false;          ///< nodes are split and merged by votes on where objects meet
+  bool seam_votes = true;           ///< nodes are split and merged by votes on where objects meet
   bool reidentify = true;           ///< moved objects are found by registration
   int confirm_scans = 2;            ///< scans that must show an object before its node enters the map
   int checkpoint_scans = 10;        ///< scans between two commits to disk

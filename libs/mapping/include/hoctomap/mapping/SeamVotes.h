@@ -39,9 +39,14 @@ class SeamVotes {
   /// The other cell of pair number `direction`.
   [[nodiscard]] static Cell partner(const Cell& cell, std::size_t direction, int sign = 1);
 
-  /// Takes the votes of one scan. @param segments  its clusters, world points  @param origin  of the sensor
-  /// @returns the cells that it shows
-  Cells add(std::span<const PointCloud* const> segments, const Eigen::Vector3d& origin);
+  /// Takes the votes of one scan. S cuts between an object and what it stands on, too: what is thin is an
+  /// object in one view and a part of its table in the next, and what stands on it must not grow into it.
+  /// @param segments  its clusters, world points
+  /// @param ground    what they stand on, world points
+  /// @param origin    of the sensor
+  /// @returns the cells of clusters that it shows
+  Cells add(std::span<const PointCloud* const> segments, std::span<const PointCloud* const> ground,
+            const Eigen::Vector3d& origin);
   /// Forgets what is known of these cells: their object has gone.
   void forget(const Cells& cells);
   /// What has moved as one is one: the cells are where an object stands now.
@@ -52,6 +57,7 @@ class SeamVotes {
 
   /// Of one cell: what speaks for a seam between it and the cell in each direction; negative: for none.
   struct Votes {
+    bool is_object = false;  ///< some scan has shown an object here
     std::bitset<kDirections> known;  ///< some scan has shown both
     std::array<std::int16_t, kDirections> evidence{};
     bool operator==(const Votes&) const = default;
