@@ -181,6 +181,11 @@ Manifest readDocument(const YamlSection& document, const std::string& name) {
     const YamlSection sensor = document["sensor"];
     manifest.sensor = StillSensor{readMatrix(sensor["pose_matrix"]), sensor["still_since"].count()};
   }
+  if (document.has("motions")) {
+    const YamlSection motions = document["motions"];
+    manifest.motions = MotionsTaken{motions["scan"].count(), motions["time"].number(),
+                                    motions["after_scan"].count(), motions["told_sha256"].text()};
+  }
   manifest.nodes = orderedTree(readNodes(document["nodes"], NodeList::tree, name), name);
   manifest.removed = readNodes(document["removed"], NodeList::removed, name);
   if (document.has("waiting")) manifest.waiting = readNodes(document["waiting"], NodeList::waiting, name);
