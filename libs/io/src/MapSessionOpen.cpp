@@ -20,8 +20,12 @@ std::filesystem::path madeDirectory(const std::filesystem::path& directory) {
   if (std::filesystem::exists(directory, error) && !std::filesystem::is_directory(directory, error)) {
     throw ConfigError(directory.string() + ": is no directory; the output of a map must be one");
   }
-  std::filesystem::create_directories(directory, error);
+  const bool made = std::filesystem::create_directories(directory, error);
   if (error) throw FileError(directory.string() + ": cannot make the directory: " + error.message());
+  if (made) {  // its name has to outlive a crash of the machine, too
+    const auto parent = std::filesystem::absolute(directory / ".").parent_path().parent_path();
+    Disk({}).syncDirectory(parent);
+  }
   return directory;
 }
 
