@@ -8,6 +8,7 @@
 
 #include "ManifestTree.h"
 #include "PoseText.h"
+#include "YamlLimits.h"
 #include "YamlSection.h"
 #include "hoctomap/existence/ExistenceFilter.h"
 #include "hoctomap/io/Manifest.h"
@@ -197,6 +198,7 @@ Manifest readDocument(const YamlSection& document, const std::string& name) {
 
 Manifest parseManifest(const std::string& text, const std::string& name) {
   try {
+    requireSimpleYaml(text, name);
     return readDocument({YAML::Load(text), name}, name);
   } catch (const YAML::Exception& error) {
     throw MapError(name + ": line " + std::to_string(error.mark.line + 1) + ": " + escapedText(error.msg));
