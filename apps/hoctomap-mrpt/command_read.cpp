@@ -3,6 +3,7 @@
 
 #include <memory>
 
+#include "Confinement.h"
 #include "ProcessGuards.h"
 #include "Verb.h"
 #include "hoctomap/geometry/Errors.h"
@@ -20,6 +21,7 @@ int read(const LogReadOptions& options) {
   setAllocationCeiling(kLargestArray);
   ReadProgress progress;
   const int stream = takeOverStdout();
+  confine();
   try {
     ScanStreamWriter writer(stream);
     reportCrashes(stream, options.logs, progress);
