@@ -24,7 +24,7 @@ string(REGEX REPLACE "(^| )-g( |$)" "\\1-g1\\2" CMAKE_CXX_FLAGS_RELWITHDEBINFO "
 add_library(hoctomap_flags INTERFACE)
 target_compile_options(hoctomap_flags INTERFACE
   -Wall -Wextra -Wpedantic -Wshadow -Wconversion -Wsign-conversion -Wold-style-cast
-  -Wnon-virtual-dtor -Woverloaded-virtual -Wnull-dereference -Wduplicated-cond
+  -Wnon-virtual-dtor -Woverloaded-virtual -Wnull-dereference $<$<CXX_COMPILER_ID:GNU>:-Wduplicated-cond>
   # The octree update is bit-exact with stock OctoMap only without fused multiply-add.
   -ffp-contract=off
   -fstack-protector-strong)

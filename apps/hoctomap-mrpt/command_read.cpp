@@ -20,7 +20,7 @@ int read(const LogReadOptions& options) {
   limitProcess(options);
   setAllocationCeiling(kLargestArray);
   ReadProgress progress;
-  const int stream = takeOverStdout();
+  const int stream = takeOverOutput();
   confine();
   try {
     ScanStreamWriter writer(stream);

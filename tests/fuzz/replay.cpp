@@ -11,6 +11,7 @@
 #include <string>
 
 #include "FuzzTarget.h"
+#include "Mutation.h"
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* bytes, std::size_t size);
 
@@ -26,32 +27,6 @@ void runFile(const fs::path& file) {
   std::ostringstream bytes;
   bytes << std::ifstream(file, std::ios::binary).rdbuf();
   run(std::move(bytes).str());
-}
-
-std::string mutated(std::string text, std::mt19937_64& random) {
-  const auto below = [&](std::size_t end) { return static_cast<std::size_t>(random() % end); };
-  for (std::size_t changes = 1 + below(4); changes > 0 && !text.empty(); --changes) {
-    const std::size_t at = below(text.size());
-    switch (below(5)) {
-      case 0:
-        text[at] = static_cast<char>(random());
-        break;
-      case 1:
-        text[at] = static_cast<char>(text[at] ^ (1 << below(8)));
-        break;
-      case 2:  // counts and lengths
-        for (std::size_t i = at; i < std::min(at + 4, text.size()); ++i) text[i] = '\xff';
-        break;
-      case 3:
-        text.erase(at, 1 + below(40));
-        break;
-      default: {
-        const std::string piece = text.substr(at, 1 + below(200));
-        text.insert(below(text.size()), piece);
-      }
-    }
-  }
-  return text;
 }
 
 }  // namespace
@@ -81,6 +56,6 @@ int main(int argc, char** argv) {
     }
   }
   std::mt19937_64 random(seed);
-  for (std::uint64_t i = 0; i < rounds; ++i) run(mutated(seeds[i % seeds.size()], random));
+  for (std::uint64_t i = 0; i < rounds; ++i) run(hoctomap::fuzz::mutated(seeds[i % seeds.size()], random));
   std::printf("%zu seeds, %llu mutations\n", seeds.size(), static_cast<unsigned long long>(rounds));
 }
