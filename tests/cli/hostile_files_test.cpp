@@ -72,6 +72,37 @@ TEST_F(HostileMaps, ATruncatedOctree) {
   expectDamaged(forge("ot", "# Octomap OcTree file\nid OcTree\nsize 4000000000\nres 0.002\ndata\n"), "cut");
 }
 
+TEST_F(HostileMaps, WhatIsIntactCanBeExported) {
+  const Manifest manifest = readManifest(map);
+  const FileRecord bad = manifest.nodes.back().ot;
+  test::writeFile(map + "/" + bad.path, "rubbish");
+  const auto outcome = test::hoctomap({"export", map, "--format", "ot", "-o", folder / "rest"});
+  EXPECT_EQ(outcome.exit_code, 4) << outcome.err;
+  EXPECT_NE(outcome.out.find("damaged  " + bad.path), std::string::npos) << outcome.out;
+  const auto rows = test::parseCsv(test::readFile(folder / "rest/nodes.csv"));
+  ASSERT_EQ(rows.size(), manifest.nodes.size() - 1);
+  for (std::size_t i = 0; i < rows.size(); ++i) {
+    EXPECT_EQ(rows[i].at("label"), manifest.nodes[i].label.name);
+    EXPECT_EQ(test::readFile(folder / "rest/" + rows[i].at("file")),
+              test::readFile(map + "/" + manifest.nodes[i].ot.path));
+  }
+  EXPECT_EQ(test::readTree(folder / "rest").size(), rows.size() + 1);
+}
+
+TEST_F(HostileMaps, AWholeMapIsExportedInBothFormats) {
+  const NodeRecord node = readManifest(map).nodes.back();
+  for (const char* format : {"ot", "bt"}) {
+    const std::string out = folder / format;
+    EXPECT_EQ(test::hoctomap({"export", map, "--format", format, "-o", out}).exit_code, 0);
+    const auto row = test::parseCsv(test::readFile(out + "/nodes.csv")).back();
+    EXPECT_EQ(test::readFile(out + "/" + row.at("file")),
+              test::readFile(map + "/" + (std::string(format) == "ot" ? node.ot : node.bt).path));
+    EXPECT_NEAR(std::stod(row.at("x")), node.world_T_node.x(), 1e-12);
+  }
+  EXPECT_EQ(test::hoctomap({"export", map, "-o", folder / "ot"}).exit_code, 2) << "not empty";
+  EXPECT_EQ(test::hoctomap({"export", map, "--format", "stl", "-o", folder / "x"}).exit_code, 2);
+}
+
 TEST_F(HostileMaps, LogOddsThatAreNoNumber) {
   std::string bytes = test::readFile(map + "/" + readManifest(map).nodes.back().ot.path);
   const float nan = std::numeric_limits<float>::quiet_NaN();
