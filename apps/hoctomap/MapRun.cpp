@@ -28,7 +28,8 @@ MapRun::MapRun(const Settings& settings, HierarchyMapper& mapper, MapDirectory& 
       options_(std::move(options)),
       motions_(motions),
       next_scan_(options_.first_scan),
-      last_stamp_(options_.last_stamp) {}
+      last_stamp_(options_.last_stamp),
+      memory_(settings.limits.max_memory) {}
 
 void MapRun::run(PipeSource& source, Progress& progress) {
   ScanPipeline pipeline(source, mapper_);
@@ -77,6 +78,12 @@ void MapRun::applyToldMotions(const Measurement& z) {
 }
 
 void MapRun::integrate(const Measurement& z, PreparedScan prepared, double read_seconds) {
+  try {
+    memory_.requireRoom(z.scan);
+  } catch (const LimitError&) {
+    commit(false);  // the scans before it are whole
+    throw;
+  }
   applyToldMotions(z);
   last_stamp_ = z.stamp;
   const UpdateReport report = mapper_.integrate(z, std::move(prepared));

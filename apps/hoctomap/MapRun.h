@@ -3,6 +3,7 @@
 
 #include <cstdint>
 
+#include "MemoryBudget.h"
 #include "MotionLedger.h"
 #include "Progress.h"
 #include "RunLog.h"
@@ -52,6 +53,7 @@ class MapRun {
   std::uint64_t next_scan_;
   double last_stamp_ = 0.0;  ///< s, of the last scan that was mapped
   RunSummary summary_;
+  MemoryBudget memory_;
 };
 
 }  // namespace hoctomap
