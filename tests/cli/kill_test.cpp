@@ -149,6 +149,44 @@ TEST_F(Kills, ASignalCommitsAndSaysSo) {
   }
 }
 
+TEST_F(Kills, ASecondSignalEndsItAtOnceAndSafely) {
+  const std::string map = folder / "map";
+  std::filesystem::create_directory(map);
+  {
+    RunningBuild run(log, map);
+    NameChanges changes(map);
+    while (!std::filesystem::exists(map + "/hierarchy.yaml") && !run.ended()) changes.next(5);
+    run.signal(SIGINT);
+    run.signal(SIGTERM);  // another one, too
+    const ExitStatus status = run.wait();
+    EXPECT_TRUE(status.signal == SIGINT || status.signal == SIGTERM || status.code == 128 + SIGINT ||
+                status.code == 128 + SIGTERM || status.code == 0)
+        << status.signal << " " << status.code;
+  }
+  EXPECT_EQ(runToTheEnd(map, [](RunningBuild&) {}), 0);
+}
+
+TEST_F(Kills, ASecondWriterIsRefusedWithThePidOfTheFirst) {
+  const std::string map = folder / "map";
+  std::filesystem::create_directory(map);
+  RunningBuild first(log, map);
+  NameChanges changes(map);
+  std::error_code not_yet;
+  while (std::filesystem::file_size(map + "/.lock", not_yet) == 0 || not_yet) changes.next(5);
+  first.signal(SIGSTOP);
+  ASSERT_FALSE(first.ended());
+  const std::string pid = std::to_string(std::stoi(test::readFile(map + "/.lock")));
+  for (const char* mode : {"--continue", "--overwrite"}) {
+    const auto second =
+        test::hoctomap({"build", "-q", "-i", log, "-o", map, mode, "--set", "mapping.checkpoint_scans=1"});
+    EXPECT_EQ(second.exit_code, 5) << second.err;
+    EXPECT_NE(second.err.find("process " + pid), std::string::npos) << second.err;
+  }
+  first.signal(SIGCONT);
+  EXPECT_EQ(first.wait().code, 0);
+  EXPECT_EQ(test::reproducibleFiles(map), expected);
+}
+
 /// A limit on file sizes, inherited by the program, stands for a full disk.
 TEST_F(Kills, AFullDiskIsExit5AndTheMapStaysWhole) {
   const std::string map = folder / "map";
