@@ -80,6 +80,22 @@ TEST_F(MapCommit, ForeignFilesAreLeftAlone) {
   EXPECT_FALSE(std::filesystem::exists(map() / "nodes/000077-000077.ot"));
 }
 
+TEST_F(MapCommit, LinksOutOfTheDirectoryAreRefused) {
+  undisturbed(1);
+  const auto directory = map("undisturbed1");
+  test::writeText(map("outside"), "somebody's");
+  for (const char* name : {"log.txt", "nodes"}) {
+    std::filesystem::rename(directory / "nodes", map("nodes"));
+    std::filesystem::create_symlink(map(name == std::string("nodes") ? "nodes" : "outside"),
+                                    directory / name);
+    EXPECT_THROW(MapDirectory(directory, mapOptions(MapOpenMode::resume)), MapError) << name;
+    EXPECT_THROW(MapDirectory(directory, mapOptions(MapOpenMode::overwrite)), MapError) << name;
+    std::filesystem::remove(directory / name);
+    std::filesystem::rename(map("nodes"), directory / "nodes");
+  }
+  EXPECT_EQ(test::readText(map("outside")), "somebody's");
+}
+
 /// Lets step `n` of a session fail; true if there was one.
 bool failAt(int n, const std::filesystem::path& directory, MapOpenMode mode,
             const std::function<void(MapDirectory&)>& session, const std::function<void()>& failure) {
