@@ -3,6 +3,7 @@
 option(BUILD_TESTING "Build the tests" ON)
 option(HOCTOMAP_WERROR "Treat warnings as errors" OFF)
 option(HOCTOMAP_SANITIZE "Build with AddressSanitizer and UndefinedBehaviorSanitizer" OFF)
+option(HOCTOMAP_FUZZ "Build the targets of tests/fuzz for libFuzzer, too; needs clang" OFF)
 
 set(CMAKE_CXX_STANDARD 20)
 set(CMAKE_CXX_STANDARD_REQUIRED ON)
@@ -23,13 +24,16 @@ string(REGEX REPLACE "(^| )-g( |$)" "\\1-g1\\2" CMAKE_CXX_FLAGS_RELWITHDEBINFO "
 add_library(hoctomap_flags INTERFACE)
 target_compile_options(hoctomap_flags INTERFACE
   -Wall -Wextra -Wpedantic -Wshadow -Wconversion -Wsign-conversion -Wold-style-cast
-  -Wnon-virtual-dtor -Woverloaded-virtual -Wnull-dereference -Wduplicated-cond
+  -Wnon-virtual-dtor -Woverloaded-virtual -Wnull-dereference $<$<CXX_COMPILER_ID:GNU>:-Wduplicated-cond>
   # The octree update is bit-exact with stock OctoMap only without fused multiply-add.
   -ffp-contract=off
   -fstack-protector-strong)
 target_link_options(hoctomap_flags INTERFACE -Wl,-z,relro,-z,now -Wl,--as-needed)
 if(HOCTOMAP_WERROR)
   target_compile_options(hoctomap_flags INTERFACE -Werror)
+endif()
+if(HOCTOMAP_FUZZ)
+  target_compile_options(hoctomap_flags INTERFACE -fsanitize=fuzzer-no-link)
 endif()
 if(HOCTOMAP_SANITIZE)
   target_compile_options(hoctomap_flags INTERFACE

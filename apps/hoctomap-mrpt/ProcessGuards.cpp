@@ -122,11 +122,15 @@ void reportCrashes(int fd, const std::vector<std::filesystem::path>& logs, const
     sigaction(signal, &action, nullptr);
 }
 
-int takeOverStdout() {
+int takeOverOutput() {
   const int stream = fcntl(STDOUT_FILENO, F_DUPFD_CLOEXEC, 3);
   if (stream < 0) throw FileError(std::string("cannot use stdout: ") + std::strerror(errno));
   const int nowhere = open("/dev/null", O_WRONLY | O_CLOEXEC);
-  if (nowhere >= 0) dup2(nowhere, STDOUT_FILENO);
+  if (nowhere >= 0) {
+    dup2(nowhere, STDOUT_FILENO);
+    dup2(nowhere, STDERR_FILENO);
+    close(nowhere);
+  }
   return stream;
 }
 

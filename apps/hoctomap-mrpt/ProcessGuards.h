@@ -27,8 +27,8 @@ void setAllocationCeiling(std::size_t bytes);
 /// time is used up).
 void reportCrashes(int fd, const std::vector<std::filesystem::path>& logs, const ReadProgress& progress);
 
-/// Moves stdout to a descriptor of its own and returns it; what libraries print goes nowhere, so that it
-/// cannot get between the messages.
-[[nodiscard]] int takeOverStdout();
+/// Moves stdout to a descriptor of its own and returns it; what libraries print, there or on stderr, goes
+/// nowhere: it is for neither the stream nor the user, who gets one line about a damaged log.
+[[nodiscard]] int takeOverOutput();
 
 }  // namespace hoctomap

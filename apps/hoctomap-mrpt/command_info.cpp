@@ -2,6 +2,7 @@
 #include <iostream>
 #include <memory>
 
+#include "Confinement.h"
 #include "ProcessGuards.h"
 #include "Verb.h"
 #include "hoctomap/mrpt_io/LogInfo.h"
@@ -23,6 +24,7 @@ void addInfoCommand(CLI::App& app, VerbRun& run) {
       dieWithParent();
       limitProcess(*options);
       setAllocationCeiling(kLargestArray);
+      confine();
       ReadProgress progress;
       const LogInfo info = describeLog(*options, progress);
       std::cout << (*json ? info.json : info.text) << std::flush;

@@ -3,6 +3,7 @@
 
 #include <memory>
 
+#include "Confinement.h"
 #include "ProcessGuards.h"
 #include "Verb.h"
 #include "hoctomap/geometry/Errors.h"
@@ -19,7 +20,8 @@ int read(const LogReadOptions& options) {
   limitProcess(options);
   setAllocationCeiling(kLargestArray);
   ReadProgress progress;
-  const int stream = takeOverStdout();
+  const int stream = takeOverOutput();
+  confine();
   try {
     ScanStreamWriter writer(stream);
     reportCrashes(stream, options.logs, progress);

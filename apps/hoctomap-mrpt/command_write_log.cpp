@@ -37,7 +37,7 @@ StreamMessage resultOf(const std::string& log, double depth_unit) {
 }
 
 int writeLogReporting(const std::string& log, double depth_unit) {
-  const int stream = takeOverStdout();
+  const int stream = takeOverOutput();
   const StreamMessage result = resultOf(log, depth_unit);
   try {
     ScanStreamWriter(stream).write(result);

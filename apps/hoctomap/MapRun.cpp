@@ -20,14 +20,16 @@ double secondsSince(Clock::time_point start) {
 }  // namespace
 
 MapRun::MapRun(const Settings& settings, HierarchyMapper& mapper, MapDirectory& directory, RunLog& log,
-               Options options)
+               Options options, MotionLedger& motions)
     : settings_(settings),
       mapper_(mapper),
       directory_(directory),
       log_(log),
       options_(std::move(options)),
+      motions_(motions),
       next_scan_(options_.first_scan),
-      last_stamp_(options_.last_stamp) {}
+      last_stamp_(options_.last_stamp),
+      memory_(settings.limits.max_memory) {}
 
 void MapRun::run(PipeSource& source, Progress& progress) {
   ScanPipeline pipeline(source, mapper_);
@@ -38,7 +40,7 @@ void MapRun::run(PipeSource& source, Progress& progress) {
     if (const auto* z = std::get_if<Measurement>(&next->item)) {
       integrate(*z, std::move(*next->prepared), next->read_seconds);
     } else if (const auto* motion = std::get_if<ObjectMotion>(&next->item)) {
-      integrate(*motion, next_scan_);
+      if (motions_.takeFromLog()) integrate(*motion, next_scan_);
     } else {
       const auto& skipped = std::get<SkippedScan>(next->item);
       last_stamp_ = skipped.stamp;
@@ -50,7 +52,7 @@ void MapRun::run(PipeSource& source, Progress& progress) {
   }
   if (StopSignal::requested() == 0) finishLog();
   commit(false);
-  for (const ToldMotion& motion : options_.motions) {
+  for (const ToldMotion& motion : motions_.left()) {
     log_.warn("events: line " + std::to_string(motion.line) +
               " is for later than the last scan and was not used");
   }
@@ -66,20 +68,22 @@ void MapRun::finishLog() {
 }
 
 void MapRun::applyToldMotions(const Measurement& z) {
-  std::vector<ToldMotion> later;
-  for (const ToldMotion& told : options_.motions) {
-    if (!told.isDue(z.scan, z.stamp)) {
-      later.push_back(told);
-    } else if (const auto node = findNode(mapper_.hierarchy(), told)) {
+  for (const ToldMotion& told : motions_.takeDue(z.scan, z.stamp)) {
+    if (const auto node = findNode(mapper_.hierarchy(), told)) {
       integrate(ObjectMotion{z.stamp, *node, motionInNodeFrame(mapper_.hierarchy(), *node, told)}, z.scan);
     } else {
       log_.warn("events: line " + std::to_string(told.line) + " is about no movable node and was not used");
     }
   }
-  options_.motions = std::move(later);
 }
 
 void MapRun::integrate(const Measurement& z, PreparedScan prepared, double read_seconds) {
+  try {
+    memory_.requireRoom(z.scan);
+  } catch (const LimitError&) {
+    commit(false);  // the scans before it are whole
+    throw;
+  }
   applyToldMotions(z);
   last_stamp_ = z.stamp;
   const UpdateReport report = mapper_.integrate(z, std::move(prepared));
@@ -121,20 +125,21 @@ void MapRun::integrate(const ObjectMotion& motion, std::uint64_t scan) {
   directory_.append(report);
 }
 
+/// When to commit, and what to keep, goes by the number of the scan alone, so that a run that was stopped and
+/// continued leaves the same files.
 void MapRun::finishScan(std::uint64_t scan) {
+  const auto crossed = [&](std::uint64_t every) { return (scan + 1) / every != next_scan_ / every; };
+  const bool snapshot = options_.snapshot_every > 0 && crossed(options_.snapshot_every);
+  const bool checkpoint = crossed(static_cast<std::uint64_t>(settings_.checkpoint_scans));
   next_scan_ = scan + 1;
-  ++uncommitted_;
-  ++since_snapshot_;
-  const bool snapshot = options_.snapshot_every > 0 && since_snapshot_ >= options_.snapshot_every;
-  if (snapshot || uncommitted_ >= static_cast<std::uint64_t>(settings_.checkpoint_scans)) commit(snapshot);
+  motions_.finishScan();
+  if (snapshot || checkpoint) commit(snapshot);
 }
 
 void MapRun::commit(bool keep) {
   const auto start = Clock::now();
   directory_.commit({mapper_.hierarchy(), mapper_.removed(), next_scan_, options_.input, keep, last_stamp_,
-                     &mapper_.seams(), mapper_.sensor()});
-  uncommitted_ = 0;
-  if (keep) since_snapshot_ = 0;
+                     &mapper_.seams(), mapper_.sensor(), motions_.taken()});
   summary_.addSeconds("write", secondsSince(start));
 }
 

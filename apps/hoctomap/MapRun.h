@@ -3,12 +3,13 @@
 
 #include <cstdint>
 
+#include "MemoryBudget.h"
+#include "MotionLedger.h"
 #include "Progress.h"
 #include "RunLog.h"
 #include "RunSummary.h"
 #include "hoctomap/config/Settings.h"
 #include "hoctomap/io/MapDirectory.h"
-#include "hoctomap/io/MotionFile.h"
 #include "hoctomap/io/PipeSource.h"
 #include "hoctomap/mapping/HierarchyMapper.h"
 #include "hoctomap/mapping/ScanPipeline.h"
@@ -22,12 +23,11 @@ class MapRun {
     std::string input;                 ///< what the logs and events are known by in the map
     std::uint64_t first_scan = 0;      ///< the first one that is not in the map yet
     double last_stamp = 0.0;           ///< s, of the one before
-    std::uint64_t snapshot_every = 0;  ///< scans; 0: no snapshots
-    std::vector<ToldMotion> motions;   ///< that are not in the map yet
+    std::uint64_t snapshot_every = 0;  ///< scans of the log; 0: no snapshots
   };
 
   MapRun(const Settings& settings, HierarchyMapper& mapper, MapDirectory& directory, RunLog& log,
-         Options options);
+         Options options, MotionLedger& motions);
 
   /// Runs to the end of the source, or until a signal asks to stop. Commits every `checkpoint_scans` scans
   /// and at the end.
@@ -49,11 +49,11 @@ class MapRun {
   MapDirectory& directory_;
   RunLog& log_;
   Options options_;
+  MotionLedger& motions_;
   std::uint64_t next_scan_;
   double last_stamp_ = 0.0;  ///< s, of the last scan that was mapped
-  std::uint64_t uncommitted_ = 0;
-  std::uint64_t since_snapshot_ = 0;
   RunSummary summary_;
+  MemoryBudget memory_;
 };
 
 }  // namespace hoctomap

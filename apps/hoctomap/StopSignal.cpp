@@ -10,7 +10,12 @@ namespace {
 // A signal handler can reach nothing but this.
 volatile std::sig_atomic_t g_signal = 0;
 
+/// The first signal asks to stop; the second, whichever of them it is, ends the program where it stands.
 void remember(int signal) {
+  if (g_signal != 0) {
+    std::signal(signal, SIG_DFL);
+    std::raise(signal);
+  }
   g_signal = signal;
 }
 
@@ -19,7 +24,6 @@ void remember(int signal) {
 StopSignal::StopSignal() {
   struct sigaction action = {};
   action.sa_handler = remember;
-  action.sa_flags = static_cast<int>(SA_RESETHAND);
   sigemptyset(&action.sa_mask);
   sigaction(SIGINT, &action, nullptr);
   sigaction(SIGTERM, &action, nullptr);

@@ -1,21 +1,20 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <tbb/global_control.h>
 
-#include <fstream>
 #include <iostream>
-#include <iterator>
 #include <memory>
 
 #include "Command.h"
+#include "InputIdentity.h"
 #include "LogOptions.h"
 #include "MapRun.h"
 #include "MappingSetup.h"
+#include "MotionLedger.h"
 #include "SceneMaker.h"
 #include "StopSignal.h"
 #include "hoctomap/geometry/Errors.h"
 #include "hoctomap/io/MapDescription.h"
 #include "hoctomap/io/MapReader.h"
-#include "hoctomap/io/Sha256.h"
 
 namespace hoctomap {
 
@@ -53,49 +52,27 @@ HierarchyMapper makeMapper(const Settings& settings, const std::optional<Manifes
           std::move(stored.hierarchy), std::move(stored.seams), stored.manifest.sensor};
 }
 
-/// The told motions that a run beginning at `first_scan` has to apply.
-std::vector<ToldMotion> toldMotions(const BuildOptions& options, std::uint64_t first_scan) {
-  std::vector<ToldMotion> motions;
-  if (options.events.empty()) return motions;
-  motions = readMotionFile(options.events);
-  if (first_scan == 0) return motions;
-  for (const ToldMotion& motion : motions) {
-    if (!std::holds_alternative<std::uint64_t>(motion.when)) {
-      throw ConfigError(options.events + ": with --continue, motions must be given by scan, not by time");
-    }
-  }
-  std::erase_if(motions,
-                [first_scan](const auto& m) { return std::get<std::uint64_t>(m.when) < first_scan; });
-  return motions;
-}
-
-/// What the map remembers its input by: another log, or other events, are another input.
-std::string inputIdentity(const PipeSource& source, const BuildOptions& options) {
-  const std::string logs = source.header().logs_sha256;
-  if (options.events.empty()) return logs;
-  std::ifstream in(options.events, std::ios::binary);
-  const std::string events{std::istreambuf_iterator<char>(in), {}};
-  return sha256Hex(logs + sha256Hex(events));
-}
-
 int build(const BuildOptions& options) {
   const Settings settings = settingsOf(options);
   RunLog log(options.log.verbose, options.log.quiet);
   const tbb::global_control threads(tbb::global_control::max_allowed_parallelism, options.log.threadCount());
-  const StopSignal stop_signal;
 
   // The logs are gone through once before anything is written.
   const auto committed = committedMap(options);
   LogReadOptions read = options.log.readOptions(settings);
   if (committed) read.resume_at = committed->scans;
-  const auto motions = toldMotions(options, read.resume_at);
+  MotionLedger motions(options.events.empty() ? std::vector<ToldMotion>() : readMotionFile(options.events),
+                       committed ? committed->motions : std::nullopt);
   PipeSource source(read, RangeLimits{settings.sensor.min_range},
                     [&log](const std::string& text) { log.warn(text); });
-  const std::string input = inputIdentity(source, options);
-  if (committed && committed->input != input) {
-    throw InputError("the logs (and --events) are not those that " + options.log.output + " was built from");
+  const InputIdentity input(read, source.header().log_sha256);
+  if (committed) {
+    if (const auto why = input.contradiction(committed->input)) {
+      throw InputError(options.log.output + ": cannot be continued: " + *why);
+    }
   }
 
+  const StopSignal stop_signal;  // a signal before this changes nothing, so it may end the program
   const MapOpenMode mode = options.resume      ? MapOpenMode::resume
                            : options.overwrite ? MapOpenMode::overwrite
                                                : MapOpenMode::create;
@@ -108,14 +85,15 @@ int build(const BuildOptions& options) {
   if (committed) log.info("continuing at scan " + std::to_string(committed->scans));
 
   HierarchyMapper mapper = makeMapper(settings, committed, directory.path());
-  MapRun run(
-      settings, mapper, directory, log,
-      {input, read.resume_at, committed ? committed->last_stamp : 0.0, options.snapshot_every, motions});
+  MapRun run(settings, mapper, directory, log,
+             {input.text(), read.resume_at, committed ? committed->last_stamp : 0.0, options.snapshot_every},
+             motions);
   {
     Progress progress(log, source.totalScans(), options.log.quiet);
     run.run(source, progress);
   }
-  directory.writeScene(makeScene);
+  // A stopped run ends at once; the scene is no part of the map's state.
+  if (StopSignal::requested() == 0) directory.writeScene(makeScene);
 
   std::cout << describeMap(readManifest(directory.path())) << "\n"
             << run.summary().text() << "map        " << options.log.output << std::endl;
@@ -140,9 +118,13 @@ void addBuildCommand(CLI::App& app, Action& action) {
                                   "hoctomap build -c configs/paper.ini -i a.rawlog -i b.rawlog -o map",
                                   "hoctomap build -i log.rawlog -o map --set label.object.resolution=0.004"});
   options->log.addTo(*command);
-  auto* resume = command->add_flag("--continue", options->resume, "go on with the map in DIR");
+  auto* resume =
+      command->add_flag("--continue", options->resume,
+                        "go on with the map in DIR; further logs may follow those it was built from");
   command->add_flag("--overwrite", options->overwrite, "replace the map in DIR")->excludes(resume);
-  command->add_option("--snapshot-every", options->snapshot_every, "keep the state after every N scans")
+  command
+      ->add_option("--snapshot-every", options->snapshot_every,
+                   "keep the state after every N scans of the log")
       ->type_name("N");
   command
       ->add_option("--events", options->events,

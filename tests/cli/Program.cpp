@@ -2,6 +2,7 @@
 #include "Program.h"
 
 #include <fcntl.h>
+#include <sys/resource.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -38,8 +39,10 @@ Outcome runProgram(const fs::path& program, const std::vector<std::string>& argu
     _exit(127);
   }
   int status = 0;
-  waitpid(pid, &status, 0);
+  rusage usage{};
+  wait4(pid, &status, 0, &usage);
   Outcome outcome;
+  outcome.peak_memory = static_cast<std::size_t>(usage.ru_maxrss) * 1024;
   outcome.exit_code = WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status);
   outcome.out = readFile(out);
   outcome.err = readFile(err);

@@ -13,6 +13,7 @@ struct Outcome {
   int exit_code = -1;
   std::string out;
   std::string err;
+  std::size_t peak_memory = 0;  ///< bytes, of the program or of one that it ran, whichever took more
 };
 
 /// Runs a program to its end. Standard input is empty. @param environment added to this process's own

@@ -86,6 +86,18 @@ void reverseLog(const std::string& log, const std::string& reversed) {
   writer.finish();
 }
 
+void copyLog(const std::string& log, const std::string& copy, const ObjectMotion& end) {
+  const std::vector<Measurement> scans = scansOf(log);
+  PipeLogWriter writer(copy);
+  for (std::size_t i = 0; i < scans.size(); ++i) {
+    const Measurement& z = scans[i];
+    writer.write(TruthPose{z.stamp, "groundtruth", z.world_T_sensor});
+    writer.write(DepthScan{i, z.stamp, z.sensor, z.world_T_sensor, *z.image});
+  }
+  writer.write(end);
+  writer.finish();
+}
+
 std::vector<MappedNode> nodesOf(const std::string& map, const std::string& label) {
   const StoredMap stored = readMap(map);
   std::vector<MappedNode> nodes;

@@ -8,6 +8,7 @@
 
 #include "Program.h"
 #include "hoctomap/io/Manifest.h"
+#include "hoctomap/mapping/MeasurementSource.h"
 
 namespace hoctomap::test {
 
@@ -24,6 +25,9 @@ Outcome build(const std::string& log, const std::string& map, const std::vector<
 
 /// Writes the depth scans of a log in reverse order, at the times of the original.
 void reverseLog(const std::string& log, const std::string& reversed);
+
+/// Writes the depth scans of a log and a movement behind them.
+void copyLog(const std::string& log, const std::string& copy, const ObjectMotion& end);
 
 /// Writes the depth scans of a log with errors added to their poses, normally distributed along and about
 /// each axis: metres, degrees.

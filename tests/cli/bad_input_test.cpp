@@ -122,6 +122,16 @@ TEST(MemoryLimit, RefusesTheScanThatWouldExceedItAndKeepsTheMap) {
   EXPECT_EQ(test::reproducibleFiles(folder / "map"), before);
 }
 
+TEST(MemoryLimit, OfTheProgramStopsBeforeAScanWithTheMapCommitted) {
+  const TemporaryFolder folder;
+  test::simulate("demo", folder / "a.rawlog");
+  const auto refused = test::build(folder / "a.rawlog", folder / "map", {"--set", "limits.max_memory=1"}, 6);
+  EXPECT_NE(refused.err.find("scan 0: the program holds"), std::string::npos) << refused.err;
+  EXPECT_NE(refused.err.find("[limits] max_memory"), std::string::npos) << refused.err;
+  EXPECT_EQ(test::hoctomap({"verify", folder / "map"}).exit_code, 0);
+  EXPECT_EQ(readManifest(folder / "map").scans, 0U);
+}
+
 TEST(BadOutput, IsExit5) {
   const TemporaryFolder folder;
   test::simulate("demo", folder / "a.rawlog");

@@ -10,7 +10,7 @@ TEST(Help, NamesEveryCommand) {
   const auto outcome = test::hoctomap({"--help"});
   EXPECT_EQ(outcome.exit_code, 0);
   for (const char* command :
-       {"build", "segment", "info", "render", "explain", "diff", "simulate", "explore"}) {
+       {"build", "segment", "info", "render", "explain", "diff", "verify", "export", "simulate", "explore"}) {
     EXPECT_NE(outcome.out.find(command), std::string::npos) << command;
   }
   EXPECT_TRUE(outcome.err.empty());
@@ -34,6 +34,8 @@ TEST(Help, OfACommandNamesItsOptionsAndAnExample) {
       {"render", {"DIR", "-o", "--size", "--view", "--at-scan"}},
       {"explain", {"DIR", "NODE", "--plot", "--json", "--at-scan"}},
       {"diff", {"A", "B", "--transform", "--json", "-o", "--at-scan", "--at-scan-a", "--at-scan-b"}},
+      {"verify", {"DIR", "--json"}},
+      {"export", {"DIR", "--format", "-o", "--at-scan"}},
       {"simulate", {"-c", "-o", "--set"}},
       {"explore", {"-c", "-o", "--config", "--set", "--seed", "--overwrite", "--threads", "-q"}}};
   for (const auto& [command, names] : options) {

@@ -9,57 +9,19 @@
 #include <csignal>
 #include <functional>
 
+#include "build_run.h"
 #include "hoctomap/geometry/Errors.h"
-#include "hoctomap/io/MapDirectory.h"
 #include "hoctomap/io/MapCheck.h"
+#include "hoctomap/io/MapDirectory.h"
 #include "hoctomap/io/MapReader.h"
-#include "random_map.h"
 
 namespace hoctomap {
 namespace {
 
+using test::BuildRun;
 using test::contents;
 using test::mapOptions;
 using test::TemporaryFolder;
-
-/// A run of three commits that changes, adds and removes nodes; the same every time.
-class BuildRun {
- public:
-  explicit BuildRun(std::uint64_t seed) : rng_(seed), hierarchy_(test::randomHierarchy(rng_, 2)) {}
-
-  void commit(MapDirectory& writer) {
-    const std::uint64_t scan = scans_++;
-    if (scan > 0) {
-      test::changeNode(rng_, hierarchy_, NodeId{2}, 10 * scan);
-      hierarchy_.add(labels::object, test::randomNodeMap(rng_, 0.002), test::randomPose(rng_, 1.0), kRootId);
-    }
-    if (scan == 2) {
-      const Pose pose = hierarchy_.world_T_node(NodeId{1});
-      removed_.push_back({hierarchy_.remove(NodeId{1}), pose, scan});
-    }
-    writer.append(test::reportOf(hierarchy_, NodeId{2}, scan));
-    writer.append(TimingRow{scan, 1000, 0.5, {}, 0.25});
-    writer.commit({hierarchy_, removed_, scans_, "log", scan == 1});
-  }
-  static void scene(MapDirectory& writer) {
-    writer.writeScene([](const auto&, const auto& file) { test::writeText(file, "a scene"); });
-  }
-  void all(MapDirectory& writer) {
-    for (int i = 0; i < 3; ++i) commit(writer);
-    scene(writer);
-  }
-
- private:
-  test::Rng rng_;
-  MapHierarchy hierarchy_;
-  std::vector<RemovedNode> removed_;
-  std::uint64_t scans_ = 0;
-};
-
-void expectWhole(const std::filesystem::path& map, const std::string& when) {
-  const StoredMap stored = readMap(map);
-  for (const Damage& damage : findDamage(map, stored.manifest)) ADD_FAILURE() << when << ": " << damage.what;
-}
 
 class MapCommit : public ::testing::Test {
  protected:
@@ -118,6 +80,22 @@ TEST_F(MapCommit, ForeignFilesAreLeftAlone) {
   EXPECT_FALSE(std::filesystem::exists(map() / "nodes/000077-000077.ot"));
 }
 
+TEST_F(MapCommit, LinksOutOfTheDirectoryAreRefused) {
+  undisturbed(1);
+  const auto directory = map("undisturbed1");
+  test::writeText(map("outside"), "somebody's");
+  for (const char* name : {"log.txt", "nodes"}) {
+    std::filesystem::rename(directory / "nodes", map("nodes"));
+    std::filesystem::create_symlink(map(name == std::string("nodes") ? "nodes" : "outside"),
+                                    directory / name);
+    EXPECT_THROW(MapDirectory(directory, mapOptions(MapOpenMode::resume)), MapError) << name;
+    EXPECT_THROW(MapDirectory(directory, mapOptions(MapOpenMode::overwrite)), MapError) << name;
+    std::filesystem::remove(directory / name);
+    std::filesystem::rename(map("nodes"), directory / "nodes");
+  }
+  EXPECT_EQ(test::readText(map("outside")), "somebody's");
+}
+
 /// Lets step `n` of a session fail; true if there was one.
 bool failAt(int n, const std::filesystem::path& directory, MapOpenMode mode,
             const std::function<void(MapDirectory&)>& session, const std::function<void()>& failure) {
@@ -141,7 +119,7 @@ TEST_F(MapCommit, EveryFailedStepLeavesAWholeMap) {
           failAt(failures, directory, MapOpenMode::create, session, [] { throw FileError("no space left"); });
     } catch (const FileError&) {
       if (std::filesystem::exists(directory / "hierarchy.yaml")) {
-        expectWhole(directory, "after failure " + std::to_string(failures));
+        test::expectWholeMap(directory, "after failure " + std::to_string(failures));
       }
     }
   }
@@ -169,7 +147,7 @@ TEST_F(MapCommit, ASessionGoesOnAfterAFailedCommit) {
         }
       }
     }
-    expectWhole(directory, "after step " + std::to_string(n));
+    test::expectWholeMap(directory, "after step " + std::to_string(n));
     const std::string events = test::readText(directory / "events.csv");
     EXPECT_EQ(std::count(events.begin(), events.end(), '\n'), 4);
     if (steps <= n) break;
@@ -193,19 +171,11 @@ TEST_F(MapCommit, KilledAtAnyStepThenContinuedGivesTheSameBytes) {
     ASSERT_EQ(::waitpid(child, &status, 0), child);
     more = WIFSIGNALED(status);
     if (std::filesystem::exists(directory / "hierarchy.yaml")) {
-      expectWhole(directory, "killed at step " + std::to_string(kills));
+      test::expectWholeMap(directory, "killed at step " + std::to_string(kills));
     }
     {
       MapDirectory writer(directory, mapOptions(MapOpenMode::resume));
-      const std::uint64_t done = writer.committed() ? writer.committed()->scans : 0;
-      const TemporaryFolder scratch;
-      BuildRun run(5);
-      {  // brings the run to where the map stands
-        MapDirectory elsewhere(scratch.path() / "map", mapOptions(MapOpenMode::create));
-        for (std::uint64_t i = 0; i < done; ++i) run.commit(elsewhere);
-      }
-      for (std::uint64_t i = done; i < 3; ++i) run.commit(writer);
-      BuildRun::scene(writer);
+      BuildRun::finish(writer, 5);
     }
     ASSERT_EQ(contents(directory), expected) << "killed at step " << kills;
   }
@@ -229,12 +199,12 @@ TEST_F(MapCommit, OverwritingKeepsTheOldMapUntilTheNewOneIsThere) {
     int status = 0;
     ASSERT_EQ(::waitpid(child, &status, 0), child);
     more = WIFSIGNALED(status);
-    expectWhole(directory, "killed at step " + std::to_string(kills));
+    test::expectWholeMap(directory, "killed at step " + std::to_string(kills));
     if (kills % 2 == 0) {  // the old or the new map can be continued
       const MapDirectory writer(directory, mapOptions(MapOpenMode::resume));
       EXPECT_FALSE(std::filesystem::exists(directory / "previous"));
     }
-    expectWhole(directory, "continued after step " + std::to_string(kills));
+    test::expectWholeMap(directory, "continued after step " + std::to_string(kills));
     MapDirectory writer(directory, mapOptions(MapOpenMode::overwrite));
     BuildRun(7).all(writer);
     auto files = contents(directory);
@@ -277,7 +247,7 @@ TEST_F(MapCommit, ShortWritesAreNoticed) {
   ASSERT_EQ(::waitpid(child, &status, 0), child);
   ASSERT_TRUE(WIFEXITED(status));
   EXPECT_EQ(WEXITSTATUS(status), 5);
-  expectWhole(directory, "after the short write");
+  test::expectWholeMap(directory, "after the short write");
   { const MapDirectory writer(directory, mapOptions(MapOpenMode::resume)); }
   auto after = contents(directory);
   EXPECT_EQ(after.at("hierarchy.yaml"), before.at("hierarchy.yaml"));
@@ -288,7 +258,7 @@ TEST_F(MapCommit, DamagedEventsAreNoticedWhenContinuing) {
   const auto events = map("undisturbed6") / "events.csv";
   const std::string text = test::readText(events);
   test::writeText(events, text + "a row that no commit knows\n");
-  expectWhole(map("undisturbed6"), "with a tail");
+  test::expectWholeMap(map("undisturbed6"), "with a tail");
   test::writeText(events, text.substr(0, text.size() - 1));
   EXPECT_THROW(MapDirectory(map("undisturbed6"), mapOptions(MapOpenMode::resume)), MapError);
 }

@@ -48,7 +48,7 @@ std::vector<StreamMessage> oneOfEach() {
   test::Rng rng(5);
   CloudScan cloud{4, 13.5, "lidar", test::randomPose(rng, 2.0), {{1.F, 2.F, 3.F}, {-1.F, 0.5F, 0.F}}};
   StreamHeader header{
-      9, 8, "robot poses 'groundtruth'", "abc", {{"RGBD", "CObservation3DRangeScan", 9, 4, 3}}};
+      9, 8, "robot poses 'groundtruth'", {"abc", "def"}, {{"RGBD", "CObservation3DRangeScan", 9, 4, 3}}};
   return {header,
           depthScan(rng),
           cloud,
@@ -78,6 +78,7 @@ TEST(ScanStream, EveryMessageComesBack) {
   EXPECT_EQ(header.total_scans, 9U);
   EXPECT_EQ(header.chosen_scans, 8U);
   EXPECT_EQ(header.pose_source, "robot poses 'groundtruth'");
+  EXPECT_EQ(header.log_sha256, (std::vector<std::string>{"abc", "def"}));
   ASSERT_EQ(header.sensors.size(), 1U);
   EXPECT_EQ(header.sensors[0].type, "CObservation3DRangeScan");
   const auto& depth = std::get<DepthScan>(got[1]);

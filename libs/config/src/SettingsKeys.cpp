@@ -235,6 +235,11 @@ constexpr auto settings_keys = std::to_array<Key<Settings>>({
     {"limits", "max_object_bytes", "bytes", big_count, "Size of one object of a log",
      &at<&S::limits, &L::max_object_bytes>},
     {"limits", "max_points", "points", big_count, "Points of one scan", &at<&S::limits, &L::max_points>},
+    {"limits", "max_memory", "MB", above(0),
+     "Memory of the program: a scan that is expected to exceed it is refused, what was mapped is committed; "
+     "none: "
+     "nine tenths of the machine's",
+     &at<&S::limits, &L::max_memory>, true},
     {"limits", "max_nodes", "nodes", big_count, "Nodes of the hierarchy", &at<&S::limits, &L::max_nodes>},
     {"limits", "max_depth", "", within(1, 1000), "Depth of the hierarchy", &at<&S::limits, &L::max_depth>},
     {"limits", "max_skipped_share", "", share,

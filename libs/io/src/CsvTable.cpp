@@ -3,7 +3,7 @@
 
 #include <utility>
 
-#include "hoctomap/geometry/Errors.h"
+#include "MapFiles.h"
 
 namespace hoctomap {
 
@@ -12,18 +12,8 @@ CsvTable::CsvTable(std::string name, std::string_view header) : name_(std::move(
 }
 
 void CsvTable::resume(const std::filesystem::path& directory, const FileRecord& record) {
-  std::string bytes = readWholeFile(directory / name_);
-  const std::string file = (directory / name_).string();
-  if (bytes.size() < record.bytes) {
-    throw MapError(file + ": has " + std::to_string(bytes.size()) + " bytes, the manifest says " +
-                   std::to_string(record.bytes));
-  }
-  bytes.resize(static_cast<std::size_t>(record.bytes));
   accepted_hash_ = Sha256();
-  accepted_hash_.add(bytes);
-  if (accepted_hash_.hex() != record.sha256) {
-    throw MapError(file + ": does not have the hash that the manifest says");
-  }
+  accepted_hash_.add(readChecked(directory, {name_, record.bytes, record.sha256}, true));
   accepted_bytes_ = record.bytes;
   pending_.clear();
   fresh_ = false;

@@ -5,7 +5,9 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <cerrno>
+#include <limits>
 #include <system_error>
 #include <utility>
 
@@ -69,11 +71,17 @@ void writeNew(const std::filesystem::path& file, std::string_view bytes) {
 }  // namespace
 
 std::string readWholeFile(const std::filesystem::path& file) {
-  const Descriptor in(file, O_RDONLY, "open");
+  return readFile(file, std::numeric_limits<std::uint64_t>::max()).bytes;
+}
+
+FilePart readFile(const std::filesystem::path& file, std::uint64_t most) {
+  // A pipe that somebody has put there must not keep us waiting.
+  const Descriptor in(file, O_RDONLY | O_NONBLOCK | O_NOCTTY, "open");
   struct stat info {};
   if (::fstat(in.get(), &info) != 0) fail(file, "read", errno);
   if (!S_ISREG(info.st_mode)) throw FileError(file.string() + ": is not a regular file");
-  std::string bytes(static_cast<std::size_t>(info.st_size), '\0');
+  const auto file_size = static_cast<std::uint64_t>(info.st_size);
+  std::string bytes(static_cast<std::size_t>(std::min(file_size, most)), '\0');
   std::size_t size = 0;
   while (size < bytes.size()) {
     const auto got = ::read(in.get(), bytes.data() + size, bytes.size() - size);
@@ -83,7 +91,7 @@ std::string readWholeFile(const std::filesystem::path& file) {
     size += static_cast<std::size_t>(got);
   }
   bytes.resize(size);
-  return bytes;
+  return {std::move(bytes), file_size};
 }
 
 bool isOurTemporary(const std::string& name) {

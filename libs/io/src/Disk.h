@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <cstdint>
 #include <filesystem>
 #include <functional>
 #include <string>
@@ -11,6 +12,16 @@ namespace hoctomap {
 /// The whole file.
 /// @throws FileError.
 [[nodiscard]] std::string readWholeFile(const std::filesystem::path& file);
+
+/// The beginning of a file.
+struct FilePart {
+  std::string bytes;
+  std::uint64_t file_size = 0;  ///< of all of it
+};
+
+/// At most `most` bytes of a file: no more memory is taken, whatever its size.
+/// @throws FileError.
+[[nodiscard]] FilePart readFile(const std::filesystem::path& file, std::uint64_t most);
 
 /// Whether `name` is one of our temporary files, which only a killed session leaves behind.
 [[nodiscard]] bool isOurTemporary(const std::string& name);

@@ -8,6 +8,7 @@
 
 #include "ManifestTree.h"
 #include "PoseText.h"
+#include "YamlLimits.h"
 #include "YamlSection.h"
 #include "hoctomap/existence/ExistenceFilter.h"
 #include "hoctomap/io/Manifest.h"
@@ -181,6 +182,11 @@ Manifest readDocument(const YamlSection& document, const std::string& name) {
     const YamlSection sensor = document["sensor"];
     manifest.sensor = StillSensor{readMatrix(sensor["pose_matrix"]), sensor["still_since"].count()};
   }
+  if (document.has("motions")) {
+    const YamlSection motions = document["motions"];
+    manifest.motions = MotionsTaken{motions["scan"].count(), motions["time"].number(),
+                                    motions["after_scan"].count(), motions["told_sha256"].text()};
+  }
   manifest.nodes = orderedTree(readNodes(document["nodes"], NodeList::tree, name), name);
   manifest.removed = readNodes(document["removed"], NodeList::removed, name);
   if (document.has("waiting")) manifest.waiting = readNodes(document["waiting"], NodeList::waiting, name);
@@ -192,6 +198,7 @@ Manifest readDocument(const YamlSection& document, const std::string& name) {
 
 Manifest parseManifest(const std::string& text, const std::string& name) {
   try {
+    requireSimpleYaml(text, name);
     return readDocument({YAML::Load(text), name}, name);
   } catch (const YAML::Exception& error) {
     throw MapError(name + ": line " + std::to_string(error.mark.line + 1) + ": " + escapedText(error.msg));

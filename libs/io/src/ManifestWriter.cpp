@@ -106,6 +106,12 @@ std::string toYaml(const Manifest& manifest) {
     text += "sensor: {still_since: " + std::to_string(manifest.sensor->since_scan) +
             ", pose_matrix: " + flowList(matrixNumbers(manifest.sensor->world_T_sensor)) + "}\n";
   }
+  if (manifest.motions) {
+    text += "motions: {scan: " + std::to_string(manifest.motions->scan) +
+            ", time: " + yamlNumber(manifest.motions->time) +
+            ", after_scan: " + std::to_string(manifest.motions->after_scan) +
+            ", told_sha256: " + yamlText(manifest.motions->told_sha256) + "}\n";
+  }
   return text + nodesText("nodes", manifest.nodes) + nodesText("removed", manifest.removed) +
          nodesText("waiting", manifest.waiting);
 }

@@ -127,6 +127,7 @@ Manifest MapDirectory::Session::describe(const MapState& state) {
   manifest.input = state.input;
   manifest.next_id = state.hierarchy.nextId();
   manifest.sensor = state.sensor;
+  manifest.motions = state.motions;
   for (const NodeId id : state.hierarchy.preorder()) {
     NodeRecord record = node_files_.record(state.hierarchy.node(id), state.hierarchy.world_T_node(id));
     std::erase_if(record.children, [&](NodeId child) { return waits(child); });

@@ -11,8 +11,9 @@
 namespace hoctomap {
 
 namespace {
-constexpr std::uintmax_t kMaxManifestBytes = 1U << 30U;
-}
+// Twice what the largest map, of 10^5 nodes, needs.
+constexpr std::uint64_t kMaxManifestBytes = 1U << 28U;
+}  // namespace
 
 void requireMap(const std::filesystem::path& directory) {
   if (!std::filesystem::exists(directory))
@@ -22,21 +23,23 @@ void requireMap(const std::filesystem::path& directory) {
 }
 
 Manifest readManifestFile(const std::filesystem::path& file) {
-  std::error_code error;
-  const auto size = std::filesystem::file_size(file, error);
-  if (!error && size > kMaxManifestBytes) throw LimitError(file.string() + ": is larger than 1 GiB");
-  return parseManifest(readWholeFile(file), file.string());
+  const FilePart part = readFile(file, kMaxManifestBytes);
+  if (part.file_size > kMaxManifestBytes) throw LimitError(file.string() + ": is larger than 256 MiB");
+  return parseManifest(part.bytes, file.string());
 }
 
 std::string readChecked(const std::filesystem::path& directory, const FileRecord& record, bool prefix) {
   const auto file = directory / record.path;
   if (!std::filesystem::exists(file)) throw MapError(file.string() + ": is missing");
-  std::string bytes = readWholeFile(file);
-  if (prefix && bytes.size() > record.bytes) bytes.resize(static_cast<std::size_t>(record.bytes));
-  if (bytes.size() != record.bytes) {
-    throw MapError(file.string() + ": has " + std::to_string(bytes.size()) + " bytes, the manifest says " +
+  const auto refuseSize = [&](std::uint64_t size) {
+    throw MapError(file.string() + ": has " + std::to_string(size) + " bytes, the manifest says " +
                    std::to_string(record.bytes));
-  }
+  };
+  std::error_code error;
+  const auto size = std::filesystem::file_size(file, error);  // before any memory is taken
+  if (!error && (prefix ? size < record.bytes : size != record.bytes)) refuseSize(size);
+  std::string bytes = readFile(file, record.bytes).bytes;
+  if (bytes.size() != record.bytes) refuseSize(bytes.size());
   if (sha256Hex(bytes) != record.sha256) {
     throw MapError(file.string() + ": does not have the hash that the manifest says");
   }

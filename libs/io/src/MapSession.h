@@ -29,6 +29,7 @@ class MapDirectory::Session {
 
  private:
   // Opening.
+  void requireNoLinks() const;
   void requireEmpty() const;
   void requireNothingForeign() const;
   void resume();

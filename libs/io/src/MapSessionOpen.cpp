@@ -20,8 +20,12 @@ std::filesystem::path madeDirectory(const std::filesystem::path& directory) {
   if (std::filesystem::exists(directory, error) && !std::filesystem::is_directory(directory, error)) {
     throw ConfigError(directory.string() + ": is no directory; the output of a map must be one");
   }
-  std::filesystem::create_directories(directory, error);
+  const bool made = std::filesystem::create_directories(directory, error);
   if (error) throw FileError(directory.string() + ": cannot make the directory: " + error.message());
+  if (made) {  // its name has to outlive a crash of the machine, too
+    const auto parent = std::filesystem::absolute(directory / ".").parent_path().parent_path();
+    Disk({}).syncDirectory(parent);
+  }
   return directory;
 }
 
@@ -65,6 +69,7 @@ MapDirectory::Session::Session(std::filesystem::path directory, MapDirectoryOpti
       events_(kEventsName, "scan,time,event,node,label,existence,detail"),
       existence_(kExistenceName, "scan,node,present,absent,occluded,p_measurement,p_posterior"),
       timing_(kTimingName, "scan,points,read_s,segment_s,associate_s,update_s,existence_s,write_s") {
+  requireNoLinks();
   if (options_.mode == MapOpenMode::create) {
     requireEmpty();
   } else if (options_.mode == MapOpenMode::overwrite) {
@@ -73,6 +78,15 @@ MapDirectory::Session::Session(std::filesystem::path directory, MapDirectoryOpti
     resume();
   } else {
     requireNothingForeign();
+  }
+}
+
+/// What we write stays in the directory, whoever made it: its files are replaced or opened without following
+/// links, save these.
+void MapDirectory::Session::requireNoLinks() const {
+  for (const char* name : {kNodesFolder, kPreviousFolder, kLogName}) {
+    if (!std::filesystem::is_symlink(std::filesystem::symlink_status(directory_ / name))) continue;
+    throw MapError((directory_ / name).string() + ": is a symbolic link; a map has none");
   }
 }
 

@@ -6,11 +6,10 @@
 #include <optional>
 #include <string_view>
 
-#include "Disk.h"
+#include "MapFiles.h"
 #include "NumberText.h"
 #include "hoctomap/geometry/Errors.h"
 #include "hoctomap/io/EscapedText.h"
-#include "hoctomap/io/Sha256.h"
 #include "hoctomap/mapping/UpdateReport.h"
 
 namespace hoctomap {
@@ -53,11 +52,7 @@ class Table {
  public:
   Table(const std::filesystem::path& directory, const FileRecord& record)
       : file_((directory / record.path).string()) {
-    if (!std::filesystem::exists(file_)) throw MapError(file_ + ": is missing");
-    text_ = readWholeFile(file_);
-    if (text_.size() < record.bytes) refuse("is shorter than the manifest says");
-    text_.resize(static_cast<std::size_t>(record.bytes));
-    if (sha256Hex(text_) != record.sha256) refuse("does not have the hash that the manifest says");
+    text_ = readChecked(directory, record, true);
     rest_ = text_;
     names_ = takeRow(rest_);
   }

@@ -107,6 +107,7 @@ std::vector<ToldMotion> readMotionFile(const std::filesystem::path& file) {
     if (line.empty() || line == "\r") continue;
     const Row row(file.string() + " line " + std::to_string(number), names, fieldsOf(line));
     motions.push_back(motionOf(row, number));
+    motions.back().text = line;
   }
   return motions;
 }

@@ -17,6 +17,7 @@ namespace hoctomap {
 namespace {
 
 constexpr unsigned kMaxDepth = 16;
+constexpr std::size_t kOtNodeBytes = 5;
 constexpr std::string_view kOtBegin = "# Octomap OcTree file";
 constexpr std::string_view kBtBegin = "# Octomap OcTree binary file";
 
@@ -111,12 +112,16 @@ class NodeWalk {
 
 Header checkedOtHeader(std::string_view bytes, const std::string& name) {
   const Header header = readHeader(bytes, kOtBegin, name);
+  if (header.size > (bytes.size() - header.data) / kOtNodeBytes) {
+    throw MapError(name + ": cut: too short for the " + std::to_string(header.size) +
+                   " octree nodes that its header says");
+  }
   NodeWalk walk(bytes.substr(header.data), header.data, name);
   std::uint64_t nodes = 0;
   if (header.size > 0) {
     do {
       ++nodes;
-      const std::string_view node = walk.take(5);  // log-odds, then the mask of children
+      const std::string_view node = walk.take(kOtNodeBytes);  // log-odds, then the mask of children
       float log_odds = 0.0F;
       std::memcpy(&log_odds, node.data(), sizeof log_odds);
       if (!std::isfinite(log_odds)) walk.refuse("log-odds that are no finite number");

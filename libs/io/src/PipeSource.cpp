@@ -31,6 +31,12 @@ Measurement measurementFrom(CloudScan&& scan, const RangeLimits& limits) {
   return z;
 }
 
+/// A scan of which no point is of use is no scan, one without any points is.
+SourceItem itemFrom(Measurement&& z) {
+  if (z.world_points.empty() && z.dropped_points > 0) return SkippedScan{z.scan, z.stamp, "no usable point"};
+  return std::move(z);
+}
+
 std::string where(const StreamPosition& position, const std::vector<std::filesystem::path>& logs) {
   const std::string log = position.log < logs.size() ? escapedText(logs[position.log].string()) : "the log";
   return log + ", object " + std::to_string(position.object) + " at byte " + std::to_string(position.offset);
@@ -119,9 +125,9 @@ void PipeSource::readAhead() {
       StreamMessage message = receive();
       Item item = StreamEnd{};
       if (auto* depth = std::get_if<DepthScan>(&message)) {
-        item = SourceItem(measurementFrom(std::move(*depth), limits_));
+        item = itemFrom(measurementFrom(std::move(*depth), limits_));
       } else if (auto* cloud = std::get_if<CloudScan>(&message)) {
-        item = SourceItem(measurementFrom(std::move(*cloud), limits_));
+        item = itemFrom(measurementFrom(std::move(*cloud), limits_));
       } else if (auto* motion = std::get_if<ObjectMotion>(&message)) {
         item = SourceItem(std::move(*motion));
       } else if (auto* skipped = std::get_if<SkippedScan>(&message)) {

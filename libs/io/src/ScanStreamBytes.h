@@ -18,7 +18,7 @@ static_assert(std::endian::native == std::endian::little, "the scan stream is li
 static_assert(std::numeric_limits<double>::is_iec559 && std::numeric_limits<float>::is_iec559);
 
 inline constexpr char kMagic[8] = {'H', 'O', 'C', 'T', 'S', 'C', 'A', 'N'};
-inline constexpr std::uint32_t kVersion = 1;
+inline constexpr std::uint32_t kVersion = 2;
 inline constexpr std::size_t kPreambleBytes = sizeof(kMagic) + sizeof(kVersion);
 inline constexpr std::size_t kFrameHeaderBytes = 32;
 

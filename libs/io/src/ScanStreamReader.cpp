@@ -25,7 +25,9 @@ StreamHeader headerFrom(Reader& in, const StreamLimits& limits) {
   m.total_scans = in.get<std::uint64_t>();
   m.chosen_scans = in.get<std::uint64_t>();
   m.pose_source = in.string();
-  m.logs_sha256 = in.string();
+  const auto logs = in.get<std::uint32_t>();
+  if (logs > limits.max_logs) throw LimitError("scan stream: too many logs");
+  for (std::uint32_t i = 0; i < logs; ++i) m.log_sha256.push_back(in.string());
   const auto count = in.get<std::uint32_t>();
   if (count > limits.max_sensors) throw LimitError("scan stream: too many sensors");
   for (std::uint32_t i = 0; i < count; ++i) {

@@ -62,7 +62,8 @@ struct Encoder {
     out.put(m.total_scans);
     out.put(m.chosen_scans);
     out.string(m.pose_source);
-    out.string(m.logs_sha256);
+    out.put(static_cast<std::uint32_t>(m.log_sha256.size()));
+    for (const auto& hash : m.log_sha256) out.string(hash);
     out.put(static_cast<std::uint32_t>(m.sensors.size()));
     for (const auto& sensor : m.sensors) {
       out.string(sensor.label);

@@ -153,7 +153,7 @@ void LogReader::Passes::makeHeader() {
     }
   }
   header.pose_source = poses->description();
-  header.logs_sha256 = sha256OfFiles(options.logs);
+  for (const auto& log : options.logs) header.log_sha256.push_back(sha256OfFile(log));
   for (const auto& wanted : options.sensors) {
     if (std::none_of(header.sensors.begin(), header.sensors.end(),
                      [&](const auto& s) { return s.label == wanted; }))

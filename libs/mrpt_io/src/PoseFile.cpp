@@ -81,6 +81,10 @@ PoseTrack readPoseFile(const std::filesystem::path& file) {
   std::ifstream in(file, std::ios::binary);
   if (!in) throw InputError(name + ": cannot open the pose file");
 
+  return readPoses(in, name);
+}
+
+PoseTrack readPoses(std::istream& in, const std::string& name) {
   PoseTrack track;
   std::string line;
   std::size_t columns = 0;

@@ -36,6 +36,7 @@ struct Limits {
   double max_inflate_ratio = 100.0;
   std::int64_t max_object_bytes = std::int64_t{1} << 30;
   std::int64_t max_points = 10'000'000;  ///< of a scan
+  double max_memory = -1.0;              ///< MB, of the program; negative: nine tenths of the machine's
   std::int64_t max_nodes = 100'000;
   int max_depth = 64;               ///< of the hierarchy
   double max_skipped_share = 0.05;  ///< of the 3D scans

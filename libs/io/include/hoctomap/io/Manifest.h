@@ -56,6 +56,15 @@ struct NodeRecord {
   std::optional<std::uint64_t> removed_scan;  ///< only of removed nodes
 };
 
+/// Which movements of the input (Section III-D) a state holds already, for a run that goes on.
+struct MotionsTaken {
+  std::uint64_t scan = 0;        ///< told motions that were due by this scan, the last one mapped ...
+  double time = 0.0;             ///< ... or by this time, the latest of a mapped scan, are in the map
+  std::uint64_t after_scan = 0;  ///< movements of the log that came after its scan `Manifest::scans` - 1
+  std::string told_sha256;       ///< what the caller knows the told ones by
+  bool operator==(const MotionsTaken&) const = default;
+};
+
 /// `hierarchy.yaml`: names the files of one consistent map.
 struct Manifest {
   int format_version = kMapFormatVersion;
@@ -73,6 +82,7 @@ struct Manifest {
   std::optional<FileRecord> seams;  ///< votes on where objects meet (SeamVotes), for a run that goes on
   std::optional<FileRecord> scene;
   std::optional<StillSensor> sensor;  ///< of the last scan, for a run that goes on
+  std::optional<MotionsTaken> motions;
   std::vector<NodeRecord> nodes;      ///< parents before children, siblings by id
   std::vector<NodeRecord> removed;    ///< by id; their files stay in `nodes/`
   std::vector<NodeRecord> waiting;  ///< for confirmation, by id: part of the map only for a run that goes on

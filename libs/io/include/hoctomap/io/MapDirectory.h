@@ -40,6 +40,7 @@ struct MapState {
   double last_stamp = 0.0;               ///< of the last scan, s since 1970
   const SeamVotes* seams = nullptr;      ///< `HierarchyMapper::seams()`
   std::optional<StillSensor> sensor{};   ///< `HierarchyMapper::sensor()`
+  std::optional<MotionsTaken> motions{};
 };
 
 /// One row of `timing.csv`: the scan's wall seconds.

@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <filesystem>
 #include <optional>
+#include <string>
 #include <variant>
 #include <vector>
 
@@ -21,6 +22,7 @@ struct ToldMotion {
   Pose motion;
   bool in_world = false;  ///< the motion is given in the world's frame: world_T_node <- motion o world_T_node
   std::size_t line = 0;   ///< of the file
+  std::string text;       ///< that line
 
   [[nodiscard]] bool isDue(std::uint64_t scan, double stamp) const;
 };

@@ -50,7 +50,7 @@ struct StreamHeader {
   std::uint64_t total_scans = 0;   ///< all 3D scans of the logs
   std::uint64_t chosen_scans = 0;  ///< at most this many will come, as scans or as skipped scans
   std::string pose_source;         ///< for the log of the run
-  std::string logs_sha256;         ///< hex, over the bytes of all logs in order; may be empty
+  std::vector<std::string> log_sha256;  ///< hex, over the bytes of each log, in order; may be empty
   std::vector<Sensor> sensors;
 };
 
@@ -99,6 +99,7 @@ struct StreamLimits {
   std::uint64_t max_points = 10'000'000;  ///< of a cloud, or pixels of an image
   std::uint32_t max_string_bytes = 65'536;
   std::uint32_t max_sensors = 10'000;
+  std::uint32_t max_logs = 100'000;
 };
 
 /// The sender's end. Does not own the descriptor. A receiver that is gone gives FileError, never SIGPIPE.

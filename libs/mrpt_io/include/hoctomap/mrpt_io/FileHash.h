@@ -3,12 +3,11 @@
 
 #include <filesystem>
 #include <string>
-#include <vector>
 
 namespace hoctomap {
 
-/// SHA-256 in hex over the bytes of the files, one after the other. Changed logs are recognised by it.
-/// @throws InputError if one cannot be read.
-[[nodiscard]] std::string sha256OfFiles(const std::vector<std::filesystem::path>& files);
+/// SHA-256 in hex over the bytes of a file. Changed logs are recognised by it.
+/// @throws InputError if it cannot be read.
+[[nodiscard]] std::string sha256OfFile(const std::filesystem::path& file);
 
 }  // namespace hoctomap

@@ -3,7 +3,9 @@
 
 #include <Eigen/Geometry>
 #include <filesystem>
+#include <iosfwd>
 #include <optional>
+#include <string>
 #include <vector>
 
 #include "hoctomap/geometry/Pose.h"
@@ -51,5 +53,8 @@ class PoseTrack {
 /// a
 ///         quaternion that is no unit quaternion to 1 %, times not ascending, one time with two poses.
 [[nodiscard]] PoseTrack readPoseFile(const std::filesystem::path& file);
+
+/// The same from a stream; `name` stands for the file in messages.
+[[nodiscard]] PoseTrack readPoses(std::istream& in, const std::string& name);
 
 }  // namespace hoctomap

@@ -1,0 +1,55 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "build_run.h"
+
+#include <gtest/gtest.h>
+
+#include "hoctomap/io/MapCheck.h"
+#include "hoctomap/io/MapReader.h"
+
+namespace hoctomap::test {
+
+void BuildRun::change() {
+  const std::uint64_t scan = scans_++;
+  if (scan > 0) {
+    changeNode(rng_, hierarchy_, NodeId{2}, 10 * scan);
+    hierarchy_.add(labels::object, randomNodeMap(rng_, 0.002), randomPose(rng_, 1.0), kRootId);
+  }
+  if (scan == 2) {
+    const Pose pose = hierarchy_.world_T_node(NodeId{1});
+    removed_.push_back({hierarchy_.remove(NodeId{1}), pose, scan});
+  }
+}
+
+void BuildRun::commit(MapDirectory& writer) {
+  change();
+  const std::uint64_t scan = scans_ - 1;
+  writer.append(reportOf(hierarchy_, NodeId{2}, scan));
+  writer.append(TimingRow{scan, 1000, 0.5, {}, 0.25});
+  writer.commit({hierarchy_, removed_, scans_, "log", scan == 1});
+}
+
+void BuildRun::scene(MapDirectory& writer) {
+  writer.writeScene([](const auto&, const auto& file) { writeText(file, "a scene"); });
+}
+
+void BuildRun::all(MapDirectory& writer) {
+  for (int i = 0; i < 3; ++i) commit(writer);
+  scene(writer);
+}
+
+void BuildRun::finish(MapDirectory& writer, std::uint64_t seed) {
+  const std::uint64_t done = writer.committed() ? writer.committed()->scans : 0;
+  BuildRun run(seed);
+  for (std::uint64_t i = 0; i < done; ++i) run.change();
+  // What the map has removed already is in its manifest, not in the hands of this session.
+  if (done == 3) run.removed_.clear();
+  for (std::uint64_t i = done; i < 3; ++i) run.commit(writer);
+  scene(writer);
+}
+
+void expectWholeMap(const std::filesystem::path& map, const std::string& when) {
+  const StoredMap stored = readMap(map);
+  for (const Damage& damage : findDamage(map, stored.manifest)) ADD_FAILURE() << when << ": " << damage.what;
+}
+
+}  // namespace hoctomap::test

@@ -1,0 +1,102 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "failing_calls.h"
+
+#include <fcntl.h>
+#include <sys/types.h>
+
+#include <atomic>
+#include <cerrno>
+#include <cstdarg>
+#include <cstddef>
+
+namespace {
+
+// The calls below take no context.
+std::atomic<bool> g_armed{false};
+std::atomic<int> g_left{0};
+std::atomic<int> g_error{0};
+std::atomic<bool> g_short_write{false};
+std::atomic<bool> g_full{false};
+
+/// Counts a call; whether it is the one to fail.
+bool fails() {
+  if (!g_armed || g_left-- != 0) return false;
+  errno = g_error;
+  return true;
+}
+
+}  // namespace
+
+extern "C" {
+
+int __real_open(const char* file, int flags, ...);
+ssize_t __real_pwrite(int fd, const void* from, std::size_t bytes, off_t at);
+int __real_fsync(int fd);
+int __real_ftruncate(int fd, off_t size);
+int __real_rename(const char* from, const char* to);
+int __real_close(int fd);
+int __real_link(const char* from, const char* to);
+int __real_unlink(const char* file);
+int __real_mkdir(const char* directory, mode_t mode);
+
+int __wrap_open(const char* file, int flags, ...) {
+  if ((flags & O_ACCMODE) != O_RDONLY && fails()) return -1;
+  std::va_list arguments;
+  va_start(arguments, flags);
+  const mode_t mode = (flags & O_CREAT) != 0 ? va_arg(arguments, mode_t) : 0;
+  va_end(arguments);
+  return __real_open(file, flags, mode);
+}
+ssize_t __wrap_pwrite(int fd, const void* from, std::size_t bytes, off_t at) {
+  if (g_armed && g_full) return errno = g_error, -1;
+  if (!fails()) return __real_pwrite(fd, from, bytes, at);
+  if (!g_short_write) return -1;
+  g_full = true;
+  return __real_pwrite(fd, from, (bytes + 1) / 2, at);
+}
+int __wrap_fsync(int fd) {
+  return fails() ? -1 : __real_fsync(fd);
+}
+int __wrap_ftruncate(int fd, off_t size) {
+  return fails() ? -1 : __real_ftruncate(fd, size);
+}
+int __wrap_rename(const char* from, const char* to) {
+  return fails() ? -1 : __real_rename(from, to);
+}
+int __wrap_close(int fd) {  // closes in any case, as Linux does
+  const bool failed = fails();
+  const int result = __real_close(fd);
+  if (failed) errno = g_error;
+  return failed ? -1 : result;
+}
+int __wrap_link(const char* from, const char* to) {
+  return fails() ? -1 : __real_link(from, to);
+}
+int __wrap_unlink(const char* file) {
+  return fails() ? -1 : __real_unlink(file);
+}
+int __wrap_mkdir(const char* directory, mode_t mode) {
+  return fails() ? -1 : __real_mkdir(directory, mode);
+}
+
+}  // extern "C"
+
+namespace hoctomap::test {
+
+FailingCall::FailingCall(int n, int error, bool short_write) {
+  g_left = n;
+  g_error = error;
+  g_short_write = short_write;
+  g_full = false;
+  g_armed = true;
+}
+
+FailingCall::~FailingCall() {
+  g_armed = false;
+}
+
+bool FailingCall::reached() const {
+  return g_left < 0;
+}
+
+}  // namespace hoctomap::test

@@ -1,0 +1,103 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Every system call that changes the disk fails once: disk full, I/O error, short write. The directory holds
+// a whole map all the same, the previous or the new one, and the run can be continued to the same bytes.
+#include <gtest/gtest.h>
+
+#include <cerrno>
+#include <optional>
+#include <ostream>
+
+#include "build_run.h"
+#include "failing_calls.h"
+#include "hoctomap/geometry/Errors.h"
+
+namespace hoctomap {
+namespace {
+
+using test::BuildRun;
+using test::contents;
+using test::FailingCall;
+using test::mapOptions;
+
+struct Fault {
+  const char* name;
+  int error;
+  bool short_write;
+  friend std::ostream& operator<<(std::ostream& out, const Fault& fault) { return out << fault.name; }
+};
+
+class MapFaults : public ::testing::TestWithParam<Fault> {
+ protected:
+  std::filesystem::path map(const std::string& name) const { return folder_.path() / name; }
+
+  /// Runs a session with call `n` failing. @return whether there was such a call
+  bool failAt(int n, const std::filesystem::path& directory, MapOpenMode mode, std::uint64_t seed) const {
+    std::optional<FailingCall> fault;
+    std::optional<MapDirectory> writer;
+    fault.emplace(n, GetParam().error, GetParam().short_write);
+    try {
+      writer.emplace(directory, mapOptions(mode));
+      BuildRun(seed).all(*writer);
+    } catch (const FileError& error) {
+      EXPECT_TRUE(fault->reached()) << error.what();
+    }
+    const bool reached = fault->reached();
+    fault.reset();  // the end of the session may clean up
+    return reached;
+  }
+
+  test::TemporaryFolder folder_;
+};
+
+TEST_P(MapFaults, OfANewMap) {
+  {
+    MapDirectory writer(map("whole"), mapOptions(MapOpenMode::create));
+    BuildRun(3).all(writer);
+  }
+  const auto expected = contents(map("whole"));
+  int n = 0;
+  for (bool more = true; more; ++n) {
+    const auto directory = map("failed" + std::to_string(n));
+    const std::string when = "after call " + std::to_string(n);
+    more = failAt(n, directory, MapOpenMode::create, 3);
+    if (std::filesystem::exists(directory / "hierarchy.yaml")) test::expectWholeMap(directory, when);
+    {
+      MapDirectory writer(directory, mapOptions(MapOpenMode::resume));
+      BuildRun::finish(writer, 3);
+    }
+    ASSERT_EQ(contents(directory), expected) << when;
+    std::filesystem::remove_all(directory);
+  }
+  EXPECT_GT(n, 100);
+}
+
+TEST_P(MapFaults, OfAMapThatReplacesAnother) {
+  for (const std::uint64_t seed : {6U, 7U}) {
+    MapDirectory writer(map(std::to_string(seed)), mapOptions(MapOpenMode::create));
+    BuildRun(seed).all(writer);
+  }
+  const auto expected = contents(map("7"));
+  int n = 0;
+  for (bool more = true; more; ++n) {
+    const auto directory = map("over" + std::to_string(n));
+    std::filesystem::copy(map("6"), directory, std::filesystem::copy_options::recursive);
+    more = failAt(n, directory, MapOpenMode::overwrite, 7);
+    test::expectWholeMap(directory, "after call " + std::to_string(n));
+    {
+      MapDirectory writer(directory, mapOptions(MapOpenMode::overwrite));
+      BuildRun(7).all(writer);
+    }
+    ASSERT_EQ(contents(directory), expected) << "after call " << n;
+    std::filesystem::remove_all(directory);
+  }
+  EXPECT_GT(n, 100);
+}
+
+INSTANTIATE_TEST_SUITE_P(All, MapFaults,
+                         ::testing::Values(Fault{"DiskFull", ENOSPC, false},
+                                           Fault{"InputOutputError", EIO, false},
+                                           Fault{"ShortWrite", ENOSPC, true}),
+                         [](const auto& fault) { return fault.param.name; });
+
+}  // namespace
+}  // namespace hoctomap
