@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include <algorithm>
 #include <filesystem>
 #include <iostream>
 #include <memory>
@@ -19,6 +20,7 @@ struct CommandOptions {
                                   "configs/scenes/explore_wall.ini", "configs/scenes/explore_two_tables.ini"};
   std::vector<std::string> assignments;        ///< of the settings
   std::vector<std::string> scene_assignments;  ///< of all scenes
+  std::vector<std::string> methods;            ///< as `optionOf`; none: all
   int seeds = 20;
   int first_seed = 1;
   int views = 8;
@@ -31,6 +33,44 @@ struct Job {
   const Simulation* simulation;
   std::uint64_t seed;
 };
+
+/// A method as an argument: `circle_of_4`.
+std::string optionOf(ViewMethod method) {
+  std::string name = toString(method);
+  std::replace(name.begin(), name.end(), ' ', '_');
+  return name;
+}
+
+std::vector<std::string> methodNames() {
+  std::vector<std::string> names;
+  for (int m = 0; m < kViewMethods; ++m) names.push_back(optionOf(static_cast<ViewMethod>(m)));
+  return names;
+}
+
+void runJob(const Job& job, const Settings& settings, const CommandOptions& options,
+            std::vector<Trial>& trials) {
+  const TrialScene scene(job.scene, *job.simulation, job.seed);
+  for (int m = 0; m < kViewMethods; ++m) {
+    const auto method = static_cast<ViewMethod>(m);
+    if (!options.methods.empty() &&
+        std::count(options.methods.begin(), options.methods.end(), optionOf(method)) == 0)
+      continue;
+    const bool chooses = method == ViewMethod::recommended || method == ViewMethod::paper;
+    trials.push_back(runTrial(scene, settings, method, {options.views, chooses}));
+    const Trial& trial = trials.back();
+    std::cerr << trials.size() << " " << scene.name << ", " << toString(method) << ", seed " << scene.seed
+              << ": " << 100.0 * trial.views.back().coverage << " % after " << trial.views.size() - 1
+              << " views" << std::endl;
+  }
+}
+
+void write(const std::vector<Trial>& trials, const std::filesystem::path& folder) {
+  std::filesystem::create_directories(folder);
+  writeTextFile(folder / "views.csv", viewsCsv(trials));
+  writeTextFile(folder / "steps.csv", stepsCsv(trials));
+  writeTextFile(folder / "trials.csv", trialsCsv(trials));
+  writeTextFile(folder / "vi_c.md", viCMarkdown(trials));
+}
 
 int viC(CommandOptions options) {
   std::vector<std::string> assignments{"label.object.resolution=0.005"};
@@ -46,37 +86,24 @@ int viC(CommandOptions options) {
   const Settings settings = loadSettings(std::nullopt, assignments);
   std::vector<Simulation> simulations;
   simulations.reserve(options.scenes.size());
-  std::vector<Job> jobs;
   for (const std::string& file : options.scenes) {
     simulations.push_back(loadScene(file, options.scene_assignments));
     if (!simulations.back().robot) throw ConfigError(file + ": needs a section [robot]");
-    const std::string name = std::filesystem::path(file).stem().string();
-    for (int seed = options.first_seed; seed < options.first_seed + options.seeds; ++seed)
-      jobs.push_back({name, &simulations.back(), static_cast<std::uint64_t>(seed)});
   }
+  // All scenes of a seed before the next seed: what a run that is stopped leaves behind is of all scenes.
+  std::vector<Job> jobs;
+  for (int seed = options.first_seed; seed < options.first_seed + options.seeds; ++seed)
+    for (std::size_t i = 0; i < simulations.size(); ++i)
+      jobs.push_back({std::filesystem::path(options.scenes[i]).stem().string(), &simulations[i],
+                      static_cast<std::uint64_t>(seed)});
 
   std::vector<Trial> trials;
-  for (const Job& job : jobs) {
-    const TrialScene scene(job.scene, *job.simulation, job.seed);
-    for (int m = 0; m < kViewMethods; ++m) {
-      const auto method = static_cast<ViewMethod>(m);
-      const bool chooses = method == ViewMethod::recommended || method == ViewMethod::paper;
-      trials.push_back(runTrial(scene, settings, method, {options.views, chooses}));
-      std::cerr << trials.size() << "/" << jobs.size() * kViewMethods << " " << scene.name << ", "
-                << toString(method) << ", seed " << scene.seed << ": "
-                << 100.0 * trials.back().views.back().coverage << " % after "
-                << trials.back().views.size() - 1 << " views" << std::endl;
-    }
+  for (std::size_t i = 0; i < jobs.size(); ++i) {
+    runJob(jobs[i], settings, options, trials);
+    if ((i + 1) % simulations.size() == 0) write(trials, options.output);
   }
-
-  std::filesystem::create_directories(options.output);
-  const std::filesystem::path folder(options.output);
-  const std::string tables = viCMarkdown(trials);
-  writeTextFile(folder / "views.csv", viewsCsv(trials));
-  writeTextFile(folder / "trials.csv", trialsCsv(trials));
-  writeTextFile(folder / "vi_c.md", tables);
-  std::cout << tables << std::flush;
-  drawViC(trials, folder);
+  std::cout << viCMarkdown(trials) << std::flush;
+  drawViC(trials, options.output);
   return 0;
 }
 
@@ -100,6 +127,11 @@ void addViCCommand(CLI::App& app, Action& action) {
       ->add_option("--views", options->views, "views of each table, of methods that do not end by themselves")
       ->type_name("N")
       ->check(CLI::PositiveNumber);
+  command->add_option("--method", options->methods, "of choosing viewpoints; may be repeated (default: all)")
+      ->type_name("METHOD")
+      ->check(CLI::IsMember(methodNames()))
+      ->expected(1)
+      ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
   command->add_option("--set", options->assignments, "section.key=value of the settings")
       ->type_name("ASSIGNMENT")
       ->expected(1)

@@ -3,6 +3,7 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "Verb.h"
 #include "hoctomap/geometry/Errors.h"
@@ -41,9 +42,14 @@ void addRenderCommand(CLI::App& app, VerbRun& run) {
   verb->add_option("--view", options->view, "where to look from: a name, or AZIMUTH,ELEVATION")
       ->capture_default_str();
   verb->add_flag("--labels", options->labels, "also boxes and labels of the nodes");
+  const auto hidden = std::make_shared<std::vector<std::string>>();
+  verb->add_option("--hide", *hidden, "leave out the nodes of a label; may be repeated")
+      ->expected(1)
+      ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
   verb->add_option("--at-scan", *at_scan, "the map as it was after this scan");
   verb->callback([=, &run] {
     run = [=] {
+      for (const std::string& label : *hidden) options->hidden.insert(Label{label});
       if (!size->empty()) parseSize(*size, *options);
       renderMap(readMap(*map, {.at_scan = *at_scan}).hierarchy, *options, *out);
       return 0;

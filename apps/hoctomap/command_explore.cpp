@@ -171,7 +171,8 @@ class Exploration {
                        sha256OfFile(log_file_), false, last_stamp_, &mapper_.seams(), mapper_.sensor()});
     directory_.writeScene(makeScene);
     picture_.draw(mapper_.hierarchy(), path / "exploration.png");
-    if (runHelper({"render", path.string(), "-o", (path / "model.png").string()}) != 0)
+    if (runHelper({"render", path.string(), "-o", (path / "model.png").string(), "--hide",
+                   labels::background.name}) != 0)
       throw FileError((path / "model.png").string() + ": could not be drawn");
   }
 

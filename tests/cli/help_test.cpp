@@ -31,7 +31,7 @@ TEST(Help, OfACommandNamesItsOptionsAndAnExample) {
       {"segment",
        {"-c", "-i", "-o", "--poses", "--sensor", "--start", "--every", "--max-scans", "--up", "--set"}},
       {"info", {"LOG|DIR", "--json", "--at-scan"}},
-      {"render", {"DIR", "-o", "--size", "--view", "--at-scan"}},
+      {"render", {"DIR", "-o", "--size", "--view", "--hide", "--at-scan"}},
       {"explain", {"DIR", "NODE", "--plot", "--json", "--at-scan"}},
       {"diff", {"A", "B", "--transform", "--json", "-o", "--at-scan", "--at-scan-a", "--at-scan-b"}},
       {"verify", {"DIR", "--json"}},

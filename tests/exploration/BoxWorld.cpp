@@ -98,6 +98,11 @@ BoxRobot::BoxRobot(const BoxWorld& world, const Eigen::Vector2d& start)
 bool BoxRobot::moveTo(const Viewpoint& goal, std::span<const Eigen::Vector2d> path) {
   ++drives;
   if (path.size() > 1 && refuses && refuses(path.back())) return false;
+  for (std::size_t i = 1; i < path.size(); ++i) {
+    if (!stops || !stops(path[i])) continue;
+    at_.world_T_base = Pose(path[i - 1].x(), path[i - 1].y(), 0.0, at_.world_T_base.yaw(), 0.0, 0.0);
+    return false;
+  }
   at_ = goal;
   return true;
 }

@@ -43,7 +43,9 @@ class BoxRobot : public Robot, public MeasurementSource {
   [[nodiscard]] std::optional<SourceItem> next() override;
 
   std::function<bool(const Eigen::Vector2d&)>
-      refuses;         ///< places that it cannot get to, although they look free
+      refuses;  ///< places that it cannot get to, although they look free
+  std::function<bool(const Eigen::Vector2d&)>
+      stops;           ///< places that it cannot drive through: it stands before them
   bool blind = false;  ///< no measurements
   int drives = 0;
 

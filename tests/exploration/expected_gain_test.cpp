@@ -13,6 +13,8 @@ namespace {
 using testing::box;
 using testing::mapOf;
 
+constexpr RangeNoise kNoNoise{.constant = 0.0, .quadratic = 0.0};
+
 /// A table with a box on it of which the front (x > 0) has been seen, and free space all around the box.
 struct Desk {
   explicit Desk(double object_resolution = 0.01) : hierarchy(testing::roomWithTable()) {
@@ -22,7 +24,7 @@ struct Desk {
     table = *tableArea(hierarchy, testing::kTable, {});
   }
   [[nodiscard]] ClearedSpace cleared() const {
-    ClearedSpace space(table.space, 0.01);
+    ClearedSpace space(table.space, 0.01, kNoNoise);
     // From high above, beams all over the table, but not into the box.
     PointCloud points;
     for (double x = table.space.min().x() - 0.1; x < table.space.max().x() + 0.1; x += 0.004) {
@@ -70,6 +72,29 @@ TEST(KnowledgeGrid, TellsFreeOccupiedAndUnknownInBoxes) {
   EXPECT_NEAR(static_cast<double>(grid.count(Knowledge::unknown_in_box)), 18.0 * 20.0 * 20.0, 2500.0);
   EXPECT_GE(grid.entropy(),
             static_cast<double>(grid.count(Knowledge::unknown_in_box) + grid.count(Knowledge::unknown)));
+}
+
+TEST(ClearedSpace, AFarSurfaceIsNotKnownButTheWayToItIs) {
+  const Eigen::AlignedBox3d space = box(-0.2, -0.2, 0.0, 0.2, 0.2, 1.0);
+  const auto look = [&](float distance) {
+    ClearedSpace cleared(space, 0.01, {.constant = 0.0, .quadratic = 1.5e-3});
+    PointCloud points;
+    for (float x = -0.1F; x < 0.1F; x += 0.005F)
+      for (float y = -0.1F; y < 0.1F; y += 0.005F) points.emplace_back(x, y, 0.505F);
+    cleared.add({0.0F, 0.0F, 0.505F + distance}, points);
+    return [cleared = std::move(cleared)](double z) -> std::optional<bool> {
+      const auto* voxel = cleared.map().tree().search(0.003, 0.003, z);
+      if (voxel == nullptr) return std::nullopt;
+      return cleared.map().tree().isNodeOccupied(voxel);
+    };
+  };
+  const auto near = look(1.5F);  // sigma 3 mm
+  EXPECT_EQ(near(0.505), true);
+  EXPECT_EQ(near(0.525), false);
+  const auto far = look(4.0F);  // sigma 24 mm
+  EXPECT_EQ(far(0.505), std::nullopt);
+  EXPECT_EQ(far(0.555), std::nullopt);
+  EXPECT_EQ(far(0.605), false);
 }
 
 /// Brute force: whether each unknown cell can be seen, by sampling the straight way to its centre.

@@ -153,7 +153,11 @@ TEST(Explorer, ThePapersGainAndUtilityWorkToo) {
 
 TEST(Explorer, AFailedMoveIsDroppedAndExplorationGoesOn) {
   Exploration exploration(oneTable());
-  exploration.robot.refuses = [](const Eigen::Vector2d& place) { return place.y() > 0.9; };
+  std::optional<Eigen::Vector2d> first_goal;
+  exploration.robot.refuses = [&first_goal](const Eigen::Vector2d& place) {
+    if (!first_goal) first_goal = place;
+    return (place - *first_goal).norm() < 0.5;
+  };
   exploration.run();
   EXPECT_GE(exploration.count(StepKind::move_failed), 1U);
   EXPECT_EQ(exploration.result.tables.begin()->second, TableOutcome::explored);
@@ -168,6 +172,17 @@ TEST(Explorer, AFailedMoveIsDroppedAndExplorationGoesOn) {
     }
   }
   EXPECT_GT(exploration.coverage(), 0.6);
+}
+
+TEST(Explorer, AWayThatEndsSomewhereIsNotTriedAgain) {
+  Exploration exploration(oneTable());
+  exploration.robot.stops = [](const Eigen::Vector2d& place) {
+    return (place - Eigen::Vector2d(0.3, -0.9)).norm() < 0.25;  // of something that its camera does not see
+  };
+  exploration.run();
+  EXPECT_EQ(exploration.result.tables.begin()->second, TableOutcome::explored);
+  EXPECT_LE(exploration.count(StepKind::move_failed), 8U);
+  EXPECT_GT(exploration.coverage(), 0.9);
 }
 
 TEST(Explorer, ARobotThatGetsNowhereEnds) {

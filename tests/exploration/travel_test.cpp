@@ -14,7 +14,7 @@ namespace {
 using testing::box;
 using testing::mapOf;
 
-constexpr double kRadius = 0.2;
+constexpr double kRadius = 0.175;
 
 /// A room with pillars at random.
 MapHierarchy pillars(std::uint64_t seed, int count) {
@@ -60,13 +60,14 @@ std::vector<double> bruteForce(const TraversabilityMap& map, std::size_t start) 
 TEST(TravelCost, EqualsBruteForceAndThePathIsAsLong) {
   int reached = 0;
   int cut_off = 0;
-  for (std::uint64_t seed = 0; seed < 8; ++seed) {
+  for (std::uint64_t seed = 0; seed < 12; ++seed) {
     const MapHierarchy hierarchy = pillars(seed, 14);
     const Eigen::Vector2d robot(-1.22, -1.22);
     const TraversabilityMap map(hierarchy, {}, kRadius, 1.0, robot);
     const TravelCost travel(map, robot, 0.5, 3.0);
     const auto start = map.cellOf(robot);
-    ASSERT_TRUE(start && map.traversable(*start));
+    ASSERT_TRUE(start);
+    if (!map.traversable(*start)) continue;  // a pillar stands there
     const std::vector<double> expected = bruteForce(map, map.index(*start));
     for (std::size_t i = 0; i < map.cells(); ++i) {
       const Eigen::Vector2d goal = map.center(map.cell(i));

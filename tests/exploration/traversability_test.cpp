@@ -85,14 +85,28 @@ TEST(Traversability, GrowingEqualsBruteForce) {
       const GridCell cell = map.cell(i);
       bool expected = map.state(cell) == State::free;
       for (std::size_t j = 0; j < map.cells() && expected; ++j) {
-        expected = map.state(map.cell(j)) != State::occupied ||
-                   (map.center(cell) - map.center(map.cell(j))).norm() > kRadius;
+        const Eigen::Vector2d apart = (map.center(cell) - map.center(map.cell(j))).cwiseAbs();
+        const double distance = (apart.array() - 0.5 * map.cellSize()).max(0.0).matrix().norm();
+        expected = map.state(map.cell(j)) != State::occupied || distance > kRadius + 1e-9;
       }
       ASSERT_EQ(map.traversable(cell), expected) << "seed " << seed << " cell " << cell.x << ' ' << cell.y;
       stands += expected ? 1 : 0;
     }
     EXPECT_GT(stands, 100);
   }
+}
+
+TEST(TableArea, NoiseDoesNotLiftTheFace) {
+  // Layers of 1 cm, the fuller the nearer to the face at 0.7 m.
+  testing::Boxes layers;
+  for (const auto& [bottom, share] : {std::pair(0.65, 0.1), std::pair(0.66, 0.3), std::pair(0.67, 0.5),
+                                      std::pair(0.68, 0.8), std::pair(0.69, 1.0), std::pair(0.70, 0.7),
+                                      std::pair(0.71, 0.5), std::pair(0.72, 0.3), std::pair(0.73, 0.1)}) {
+    layers.occupied.push_back(box(-0.5, -0.4, bottom + 0.001, -0.5 + share, 0.4, bottom + 0.009));
+  }
+  MapHierarchy hierarchy(labels::background, mapOf(0.05, {}));
+  const NodeId table = hierarchy.add(labels::table, mapOf(0.01, layers), Pose(), kRootId);
+  EXPECT_NEAR(tableArea(hierarchy, table, {})->top, 0.70, 0.006);
 }
 
 TEST(TableArea, OutlineFaceAndSpace) {

@@ -91,16 +91,19 @@ TEST_F(SceneTest, FolderThatIsNotThere) {
   EXPECT_THROW(writeSceneFile(smallMap(), folder_ / "no" / "a.3Dscene"), FileError);
 }
 
-TEST_F(SceneTest, PictureShowsAllThreeColours) {
-  const auto file = folder_ / "map.png";
-  renderMap(smallMap(), {400, 300, "oblique", false}, file);
-  mrpt::img::CImage image;
-  ASSERT_TRUE(image.loadFromFile(file.string()));
-  ASSERT_EQ(image.getWidth(), 400U);
-  ASSERT_EQ(image.getHeight(), 300U);
+struct Colours {
   std::size_t cyan = 0;
   std::size_t magenta = 0;
   std::size_t yellow = 0;
+};
+
+Colours coloursOf(const std::filesystem::path& file) {
+  mrpt::img::CImage image;
+  EXPECT_TRUE(image.loadFromFile(file.string()));
+  EXPECT_EQ(image.getWidth(), 400U);
+  EXPECT_EQ(image.getHeight(), 300U);
+  Colours colours;
+  auto& [cyan, magenta, yellow] = colours;
   for (unsigned row = 0; row < 300; ++row) {
     const auto* line = image.ptrLine<std::uint8_t>(row);
     for (unsigned column = 0; column < 400; ++column) {
@@ -112,9 +115,28 @@ TEST_F(SceneTest, PictureShowsAllThreeColours) {
       if (r > b + 40 && g > b + 40) ++yellow;
     }
   }
-  EXPECT_GT(cyan, 100U);
-  EXPECT_GT(magenta, 5000U);
-  EXPECT_GT(yellow, 1000U);
+  return colours;
+}
+
+TEST_F(SceneTest, PictureShowsAllThreeColours) {
+  const auto file = folder_ / "map.png";
+  renderMap(smallMap(), {400, 300, "oblique", false}, file);
+  const Colours colours = coloursOf(file);
+  EXPECT_GT(colours.cyan, 100U);
+  EXPECT_GT(colours.magenta, 5000U);
+  EXPECT_GT(colours.yellow, 1000U);
+}
+
+TEST_F(SceneTest, LabelsCanBeHidden) {
+  const auto file = folder_ / "map.png";
+  RenderOptions options{400, 300, "oblique", false};
+  options.hidden = {labels::background, Label{"none_has_it"}};
+  renderMap(smallMap(), options, file);
+  EXPECT_GT(coloursOf(file).cyan, 100U);
+  EXPECT_GT(coloursOf(file).magenta, 5000U);
+  EXPECT_EQ(coloursOf(file).yellow, 0U);
+  options.hidden = {labels::background, labels::table, labels::object};
+  EXPECT_NO_THROW(renderMap(smallMap(), options, file));
 }
 
 TEST_F(SceneTest, OptionsAreChecked) {

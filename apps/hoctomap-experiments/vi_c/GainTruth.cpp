@@ -35,7 +35,7 @@ void GainTruth::look(const MapHierarchy& map, NodeId table) {
   if (!area) return;
   table_ = table;
   if (!cleared_ || !cleared_->space().contains(area->space)) {
-    cleared_.emplace(area->space, config_.cleared_resolution);
+    cleared_.emplace(area->space, config_.cleared_resolution, config_.noise);
     cleared_scans_ = 0;
   }
   for (; cleared_scans_ < scans_.size(); ++cleared_scans_)

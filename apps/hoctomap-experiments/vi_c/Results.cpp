@@ -111,7 +111,7 @@ Correlations correlationsOf(const Trials& trials) {
   std::vector<double> drops;
   Correlations c;
   for (const Trial* t : trials) {
-    for (const auto& step : t->steps) {
+    for (const auto& step : t->checks) {
       std::vector<double> g;
       std::vector<double> n;
       for (const GainCheck& check : step) {
@@ -216,6 +216,22 @@ std::string viewsCsv(const std::vector<Trial>& trials) {
       std::string tables;
       for (const double c : v.table_coverage) tables += (tables.empty() ? "" : " ") + numberText(c, 6);
       csv += "," + tables + "\n";
+    }
+  }
+  return csv;
+}
+
+std::string stepsCsv(const std::vector<Trial>& trials) {
+  std::string csv =
+      "scene,method,seed,step,kind,best_gain,chosen_gain,cost_s,entropy_bits,unknown_in_boxes\n";
+  for (const Trial& t : trials) {
+    for (std::size_t i = 0; i < t.steps.size(); ++i) {
+      const TrialStep& step = t.steps[i];
+      csv += t.scene + "," + toString(t.method) + "," + std::to_string(t.seed) + "," + std::to_string(i) +
+             "," + toString(step.kind);
+      for (const double number : {step.best_gain, step.chosen_gain, step.cost, step.entropy})
+        appendNumber(csv, number);
+      csv += "," + std::to_string(step.unknown_in_boxes) + "\n";
     }
   }
   return csv;

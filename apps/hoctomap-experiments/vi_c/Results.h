@@ -11,6 +11,8 @@ namespace hoctomap {
 
 /// One line a view of a trial.
 [[nodiscard]] std::string viewsCsv(const std::vector<Trial>& trials);
+/// One line a step of the methods that choose.
+[[nodiscard]] std::string stepsCsv(const std::vector<Trial>& trials);
 /// One line a trial: how it ended, when coverage was reached, how well gains were foretold.
 [[nodiscard]] std::string trialsCsv(const std::vector<Trial>& trials);
 /// Tables for docs/reproduction.md, by scene and method; means with 95 % confidence intervals.

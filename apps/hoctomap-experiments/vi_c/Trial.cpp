@@ -40,6 +40,7 @@ ExplorationConfig configOf(const Settings& settings, ViewMethod method, std::uin
     config.gain.measure = GainMeasure::entropy;
     config.gain.unknown_space = UnknownSpace::transparent;
     config.utility = UtilityForm::additive;
+    config.alpha = 0.5;
   }
   return config;
 }
@@ -48,6 +49,17 @@ Simulation jitteredSimulation(Simulation simulation, std::uint64_t seed) {
   simulation.scene = jittered(std::move(simulation.scene), seed);
   simulation.seed = seed;
   return simulation;
+}
+
+TrialStep inFigures(const ExplorationStep& step) {
+  TrialStep figures{.kind = step.kind, .entropy = step.entropy, .unknown_in_boxes = step.unknown_in_boxes};
+  for (const auto& candidate : step.candidates)
+    figures.best_gain = std::max(figures.best_gain, candidate.gain);
+  if (step.chosen) {
+    figures.chosen_gain = step.candidates[*step.chosen].gain;
+    figures.cost = step.candidates[*step.chosen].cost;
+  }
+  return figures;
 }
 
 class Run {
@@ -97,11 +109,12 @@ class Run {
         addView(std::nullopt, 0.0);
       return;
     }
+    trial_.steps.push_back(inFigures(step));
     if (last_gain_) trial_.entropy_drops.emplace_back(*last_gain_, last_entropy_ - step.entropy);
     last_gain_.reset();
     if (step.kind == StepKind::view && options_.check_gains) {
       std::vector<GainCheck> checks = truth_.check(step);
-      if (!checks.empty()) trial_.steps.push_back(std::move(checks));
+      if (!checks.empty()) trial_.checks.push_back(std::move(checks));
     }
     if (step.kind == StepKind::view && step.scan) {
       last_gain_ = step.candidates[*step.chosen].gain;

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "hoctomap/config/Settings.h"
+#include "hoctomap/exploration/Explorer.h"
 #include "hoctomap/simulation/Simulation.h"
 #include "hoctomap/simulation/SurfaceCoverage.h"
 
@@ -31,6 +32,16 @@ struct GainCheck {
   double cells = 0.0;  ///< in boxes that a view from there would show: free, or the surface itself
 };
 
+/// A turn of the loop of Algorithm 1 in figures, of the methods that have one.
+struct TrialStep {
+  StepKind kind = StepKind::view;
+  double best_gain = 0.0;    ///< of the candidates
+  double chosen_gain = 0.0;  ///< of the one that was gone to
+  double cost = 0.0;         ///< s, of that one
+  double entropy = 0.0;      ///< bits, of the space over the table before the step
+  std::size_t unknown_in_boxes = 0;
+};
+
 /// One exploration of one scene.
 struct Trial {
   std::string scene;
@@ -38,7 +49,8 @@ struct Trial {
   std::uint64_t seed = 0;
   std::vector<std::string> tables;
   std::vector<TrialView> views;
-  std::vector<std::vector<GainCheck>> steps;             ///< of the views of boxes
+  std::vector<TrialStep> steps;
+  std::vector<std::vector<GainCheck>> checks;            ///< of the views of boxes
   std::vector<std::pair<double, double>> entropy_drops;  ///< gain of the view taken, bits that it took away
   bool ended_by_itself = false;                          ///< every table is explored
 
@@ -54,7 +66,7 @@ struct Trial {
 
 struct TrialOptions {
   int views = 8;             ///< of each table, for methods that do not end by themselves
-  bool check_gains = false;  ///< fill `Trial::steps`
+  bool check_gains = false;  ///< fill `Trial::checks`
 };
 
 /// A scene with its objects as a seed has put them, and what can be seen of them: the same for all methods.

@@ -146,6 +146,7 @@ MappingConfig Settings::mappingConfig() const {
 
 ExplorationConfig Settings::explorationConfig() const {
   ExplorationConfig config = exploration;
+  config.noise = existence.noise;
   if (const auto profile = labels.find(hoctomap::labels::object); profile != labels.end())
     config.gain.sensor = profile->second.occupancy;
   return config;

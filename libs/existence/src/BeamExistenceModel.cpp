@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "hoctomap/existence/BeamExistenceModel.h"
 
-#include <tbb/parallel_for.h>
-
 #include <algorithm>
 #include <cmath>
 #include <map>
@@ -12,6 +10,7 @@
 #include "RangeBuffer.h"
 #include "hoctomap/existence/RangeView.h"
 #include "hoctomap/existence/ScanShift.h"
+#include "hoctomap/geometry/ForEachIndex.h"
 
 namespace hoctomap {
 
@@ -133,8 +132,8 @@ std::vector<Evidence> BeamExistenceModel::evidence(const MapHierarchy& hierarchy
   if (nodes.empty() || view.width() == 0) return result;
 
   std::vector<std::optional<Silhouette>> silhouettes(nodes.size());
-  tbb::parallel_for(std::size_t{0}, nodes.size(),
-                    [&](std::size_t i) { silhouettes[i] = render(hierarchy, nodes[i].id, view, config_); });
+  forEachIndex(nodes.size(),
+               [&](std::size_t i) { silhouettes[i] = render(hierarchy, nodes[i].id, view, config_); });
   if (std::none_of(silhouettes.begin(), silhouettes.end(), [](const auto& s) { return s.has_value(); }))
     return result;
   const Support support = renderSupport(hierarchy, view, nodes, silhouettes, config_);
@@ -146,14 +145,14 @@ std::vector<Evidence> BeamExistenceModel::evidence(const MapHierarchy& hierarchy
                                     node.children().empty() ? &support : nullptr, node.map().resolution());
     return comparison.evidence(silhouettes[i]->share_in_view, nodes[i].parameters, shift);
   };
-  tbb::parallel_for(std::size_t{0}, nodes.size(), [&](std::size_t i) {
+  forEachIndex(nodes.size(), [&](std::size_t i) {
     if (silhouettes[i])
       result[i] = compare(i, nodes[i].same_view ? same_view : config_, Eigen::Vector3d::Zero());
   });
   // The error is the scan's. Where others show it, a node in doubt has to be explained by it, too.
   std::map<NodeId, Evidence> first;
   for (std::size_t i = 0; i < nodes.size(); ++i) first[nodes[i].id] = result[i];
-  tbb::parallel_for(std::size_t{0}, nodes.size(), [&](std::size_t i) {
+  forEachIndex(nodes.size(), [&](std::size_t i) {
     if (!result[i].informative || nodes[i].same_view || result[i].presentShare() >= kClearlyPresent) return;
     if (const auto shift = commonShift(hierarchy, first, nodes[i].id, kClearlyPresent, kLeastOthers))
       result[i] = compare(i, same_view, *shift);

@@ -1,14 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "hoctomap/exploration/Explorer.h"
 
-#include <tbb/parallel_for.h>
-
 #include <algorithm>
 #include <cmath>
 #include <limits>
 #include <numbers>
 
 #include "hoctomap/geometry/Errors.h"
+#include "hoctomap/geometry/ForEachIndex.h"
 
 namespace hoctomap {
 
@@ -22,6 +21,15 @@ double lengthOf(const std::vector<Eigen::Vector2d>& path) {
 
 Eigen::Vector2d placeOf(const Pose& world_T_base) {
   return {world_T_base.x(), world_T_base.y()};
+}
+
+/// The first place of a path behind the one that is nearest to where the robot is.
+std::optional<Eigen::Vector2d> nextOn(const std::vector<Eigen::Vector2d>& path, const Eigen::Vector2d& here) {
+  const auto nearest = std::min_element(path.begin(), path.end(), [&](const auto& a, const auto& b) {
+    return (a - here).squaredNorm() < (b - here).squaredNorm();
+  });
+  if (nearest == path.end() || nearest + 1 == path.end()) return std::nullopt;
+  return *(nearest + 1);
 }
 
 }  // namespace
@@ -156,7 +164,7 @@ void Explorer::exploreStep(const TableArea& area) {
   const Eigen::Vector2d here = placeOf(robot_.world_T_base());
   TraversabilityMap traversability(mapper_.hierarchy(), config_.traversability, robot.radius, robot.height,
                                    here);
-  for (const Eigen::Vector2d& place : failed_) traversability.block(place, robot.radius);
+  for (const FailedPlace& failed : failed_) traversability.block(failed.place, failed.radius);
   const TravelCost travel(traversability, here, robot.speed, robot.measuring_time);
   const KnowledgeGrid knowledge(mapper_.hierarchy(), area, clearedOf(state), config_.cell, robot.max_range);
 
@@ -165,22 +173,28 @@ void Explorer::exploreStep(const TableArea& area) {
   step.traversability = &traversability;
   step.entropy = knowledge.entropy();
   step.unknown_in_boxes = knowledge.count(Knowledge::unknown_in_box);
-  const std::vector<Viewpoint> candidates = candidatesOf(area, travel);
-  if (candidates.empty()) return end(state, TableOutcome::unreachable, step);
   if (state.views >= config_.max_views) return end(state, TableOutcome::out_of_views, step);
 
   const Wanted wanted = wantedOf(state);
-  evaluate(step, candidates, knowledge, travel, wanted);
+  step.kind = wanted == Wanted::boxes ? StepKind::view : StepKind::first_view;
   const auto by = [&step](double ExplorationStep::Candidate::*what) {
     return std::max_element(step.candidates.begin(), step.candidates.end(),
                             [what](const auto& a, const auto& b) { return a.*what < b.*what; });
   };
-  const double best_gain = by(&ExplorationStep::Candidate::gain)->gain;
-  std::optional<double>& first_gain =
-      wanted == Wanted::boxes ? state.first_box_gain : state.first_everything_gain;
-  if (!first_gain) first_gain = best_gain;
-  step.kind = wanted == Wanted::boxes ? StepKind::view : StepKind::first_view;
-  if (!(best_gain > config_.tau * *first_gain)) {
+  // What is left may be seen from few places: a table is not given up for one set V that has none of them.
+  constexpr std::uint64_t kDraws = 3;
+  bool worth_it = false;
+  for (std::uint64_t draw = 0; draw < kDraws && !worth_it; ++draw) {
+    const std::vector<Viewpoint> candidates = candidatesOf(area, travel, draw);
+    if (candidates.empty()) return end(state, TableOutcome::unreachable, step);
+    evaluate(step, candidates, knowledge, travel, wanted);
+    const double best_gain = by(&ExplorationStep::Candidate::gain)->gain;
+    std::optional<double>& first_gain =
+        wanted == Wanted::boxes ? state.first_box_gain : state.first_everything_gain;
+    if (!first_gain) first_gain = best_gain;
+    worth_it = best_gain > config_.tau * *first_gain;
+  }
+  if (!worth_it) {
     // Never seen at all: not from where the robot can get to.
     return end(state, state.views == 0 ? TableOutcome::unreachable : TableOutcome::explored, step);
   }
@@ -196,8 +210,10 @@ Wanted Explorer::wantedOf(const TableState& state) {
   return state.views == 0 ? Wanted::everything : Wanted::boxes;
 }
 
-std::vector<Viewpoint> Explorer::candidatesOf(const TableArea& area, const TravelCost& travel) const {
-  std::vector<Viewpoint> candidates = sampler_.sample(area, travel, config_.seed + steps_);
+std::vector<Viewpoint> Explorer::candidatesOf(const TableArea& area, const TravelCost& travel,
+                                              std::uint64_t draw) const {
+  constexpr std::uint64_t kFarApart = 1ULL << 32U;  // of the seeds of other steps
+  std::vector<Viewpoint> candidates = sampler_.sample(area, travel, config_.seed + steps_ + draw * kFarApart);
   if (!candidates.empty()) return candidates;
   // Nothing near it: the nearest place that the camera reaches the table from.
   const TraversabilityMap& map = travel.map();
@@ -218,15 +234,19 @@ std::vector<Viewpoint> Explorer::candidatesOf(const TableArea& area, const Trave
 void Explorer::evaluate(ExplorationStep& step, const std::vector<Viewpoint>& candidates,
                         const KnowledgeGrid& knowledge, const TravelCost& travel, Wanted wanted) const {
   step.candidates.resize(candidates.size());
-  tbb::parallel_for(std::size_t{0}, candidates.size(), [&](std::size_t i) {
+  forEachIndex(candidates.size(), [&](std::size_t i) {
     ExplorationStep::Candidate& candidate = step.candidates[i];
     candidate.viewpoint = candidates[i];
     candidate.gain = gain_(knowledge, candidates[i], wanted);
     candidate.cost = *travel.seconds(placeOf(candidates[i].world_T_base));  // candidates can be reached
-    candidate.utility = config_.utility == UtilityForm::ratio
-                            ? candidate.gain / candidate.cost
-                            : config_.alpha * candidate.gain - (1.0 - config_.alpha) * candidate.cost;
+    candidate.utility = utilityOf(candidate.gain, candidate.cost);
   });
+}
+
+double Explorer::utilityOf(double gain, double cost) const {
+  const double alpha = config_.alpha;
+  if (config_.utility == UtilityForm::additive) return alpha * gain - (1.0 - alpha) * cost;
+  return alpha < 1.0 ? std::pow(gain, alpha / (1.0 - alpha)) / cost : gain;
 }
 
 void Explorer::goAndMeasure(TableState& state, const TravelCost& travel, ExplorationStep& step) {
@@ -240,8 +260,12 @@ void Explorer::goAndMeasure(TableState& state, const TravelCost& travel, Explora
     measure(step);
   } else {
     step.kind = StepKind::move_failed;
-    step.travel = (placeOf(robot_.world_T_base()) - before).norm();
-    failed_.push_back(placeOf(goal.world_T_base));
+    const Eigen::Vector2d stopped = placeOf(robot_.world_T_base());
+    step.travel = (stopped - before).norm();
+    failed_.push_back({placeOf(goal.world_T_base), robot_.model().radius});
+    // Nor does the way there lead on from where it stopped.
+    if (const auto ahead = nextOn(step.path, stopped))
+      failed_.push_back({*ahead, config_.traversability.cell});
     constexpr int kPatience = 5;
     if (++state.failed_moves >= kPatience) state.outcome = TableOutcome::unreachable;
   }
@@ -279,7 +303,7 @@ void Explorer::report(ExplorationStep& step) {
 /// The space over a table with all scans so far; made anew when the table turns out to be larger.
 const ClearedSpace& Explorer::clearedOf(TableState& state) {
   if (!state.cleared || !state.cleared->space().contains(state.area.space)) {
-    state.cleared.emplace(state.area.space, config_.cleared_resolution);
+    state.cleared.emplace(state.area.space, config_.cleared_resolution, config_.noise);
     state.cleared_scans = 0;
   }
   for (; state.cleared_scans < scans_.size(); ++state.cleared_scans) {

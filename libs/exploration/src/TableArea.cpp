@@ -4,18 +4,28 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <map>
 #include <set>
 
 namespace hoctomap {
 
 namespace {
 
-/// The height below which so much of the points lies.
-double heightOfShare(std::vector<double> heights, double share) {
-  const auto nth =
-      heights.begin() + static_cast<std::ptrdiff_t>(share * static_cast<double>(heights.size() - 1));
-  std::nth_element(heights.begin(), nth, heights.end());
-  return *nth;
+/// The upper side of the highest layer of voxels that is nearly as full as the fullest: noise makes the face
+/// centimetres thick, with less and less above and below it.
+double upperFace(const std::vector<double>& heights, double resolution) {
+  constexpr double kNearlyFull = 0.9;
+  std::map<int, std::size_t> layers;
+  for (const double height : heights) ++layers[static_cast<int>(std::floor(height / resolution))];
+  std::size_t fullest = 0;
+  for (const auto& [layer, count] : layers) fullest = std::max(fullest, count);
+  const auto face = std::find_if(layers.rbegin(), layers.rend(), [&](const auto& layer) {
+    return static_cast<double>(layer.second) >= kNearlyFull * static_cast<double>(fullest);
+  });
+  double sum = 0.0;
+  for (const double height : heights)
+    if (static_cast<int>(std::floor(height / resolution)) == face->first) sum += height;
+  return sum / static_cast<double>(face->second) + 0.5 * resolution;
 }
 
 }  // namespace
@@ -46,8 +56,7 @@ std::optional<TableArea> tableArea(const MapHierarchy& map, NodeId table, const 
     cells.emplace(static_cast<int>(std::floor(p.x() / kOutlineCell)),
                   static_cast<int>(std::floor(p.y() / kOutlineCell)));
   }
-  constexpr double kUpperFace = 0.9;  // of the voxels lie below: stray ones above the face do not lift it
-  area.top = heightOfShare(std::move(heights), kUpperFace) + 0.5 * node.map().resolution();
+  area.top = upperFace(heights, node.map().resolution());
   Eigen::AlignedBox2d around;
   for (const auto& [x, y] : cells) {
     area.outline.emplace_back((x + 0.5) * kOutlineCell, (y + 0.5) * kOutlineCell);

@@ -55,7 +55,7 @@ TraversabilityMap::TraversabilityMap(const MapHierarchy& map, const Traversabili
     traversable_[i] = states_[i] == State::free || (config.unknown_is_free && states_[i] == State::unknown);
   }
   for (std::size_t i = 0; i < states_.size(); ++i) {
-    if (states_[i] == State::occupied) block(center(cell(i)), radius);
+    if (states_[i] == State::occupied) blockAround(cell(i), radius);
   }
 }
 
@@ -106,6 +106,18 @@ Eigen::Vector2d TraversabilityMap::center(const GridCell& cell) const {
 
 void TraversabilityMap::block(const Eigen::Vector2d& place, double radius) {
   forEachWithin(place, radius, [this](std::size_t i) { traversable_[i] = false; });
+}
+
+/// The obstacle may be anywhere in its cell.
+void TraversabilityMap::blockAround(const GridCell& obstacle, double radius) {
+  const int reach = static_cast<int>(radius / cell_) + 1;
+  for (int y = std::max(0, obstacle.y - reach); y <= std::min(height_ - 1, obstacle.y + reach); ++y) {
+    for (int x = std::max(0, obstacle.x - reach); x <= std::min(width_ - 1, obstacle.x + reach); ++x) {
+      const double dx = std::max(0.0, std::abs(x - obstacle.x) - 0.5);
+      const double dy = std::max(0.0, std::abs(y - obstacle.y) - 0.5);
+      if (cell_ * std::hypot(dx, dy) <= radius) traversable_[index({x, y})] = false;
+    }
+  }
 }
 
 template <class Visit>

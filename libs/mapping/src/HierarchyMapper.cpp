@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "hoctomap/mapping/HierarchyMapper.h"
 
-#include <tbb/parallel_for.h>
-
 #include <algorithm>
 #include <array>
 #include <utility>
@@ -12,6 +10,7 @@
 #include "NodeUpdate.h"
 #include "StageTimer.h"
 #include "hoctomap/geometry/Errors.h"
+#include "hoctomap/geometry/ForEachIndex.h"
 #include "hoctomap/geometry/PcaFrame.h"
 
 namespace hoctomap {
@@ -251,7 +250,7 @@ void HierarchyMapper::updateMaps(const Measurement& z, const std::vector<Labelle
     updates.push_back(std::move(update));
   }
   std::vector<ScanUpdateReport> results(updates.size());
-  tbb::parallel_for(std::size_t{0}, updates.size(), [&](std::size_t i) {
+  forEachIndex(updates.size(), [&](std::size_t i) {
     results[i] = updateNodeMap(updates[i], z, *strategies_.update);
     // All that follows asks for the box of a node: here in parallel. A single map has no use for it.
     if (config_.bounded) static_cast<void>(updates[i].node->map().occupiedBox());

@@ -1,16 +1,15 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "MovedObjects.h"
 
-#include <tbb/parallel_for.h>
-
 #include <algorithm>
 #include <cmath>
 #include <functional>
 #include <memory>
 
 #include "BeamTraces.h"
-#include "hoctomap/existence/ScanShift.h"
 #include "SurfaceRegistration.h"
+#include "hoctomap/existence/ScanShift.h"
+#include "hoctomap/geometry/ForEachIndex.h"
 
 namespace hoctomap {
 
@@ -175,7 +174,7 @@ class Finder {
       if (surface) orientSeen(*surface, RegistrationSight{nullptr, origin_});
     }
     std::vector<Registration> result(trials.size());
-    tbb::parallel_for(std::size_t{0}, trials.size(), [&](std::size_t k) {
+    forEachIndex(trials.size(), [&](std::size_t k) {
       const auto& [n, s] = trials[k];
       result[k] = registerSurfaces(*models[n], *seen[s], configFor(doubtful[n], *segments[s].world_points),
                                    sights[n]);

@@ -26,11 +26,12 @@ Eigen::Vector3d direction(double azimuth, double elevation) {
 }
 
 /// World corners of what should fill the picture.
-std::vector<Eigen::Vector3d> corners(const MapHierarchy& hierarchy) {
+std::vector<Eigen::Vector3d> corners(const MapHierarchy& hierarchy, const std::set<Label>& hidden) {
   std::vector<Eigen::Vector3d> points;
   for (const NodeId id : hierarchy.ids()) {
     const Obb box = hierarchy.box(id);
     if (box.box.isEmpty() || (id == kRootId && hierarchy.size() > 1)) continue;
+    if (hidden.contains(hierarchy.node(id).label())) continue;
     for (int i = 0; i < 8; ++i) {
       points.emplace_back(box.world_T_frame *
                           box.box.corner(static_cast<Eigen::AlignedBox3d::CornerType>(i)));
@@ -125,8 +126,9 @@ const std::vector<std::string>& renderViews() {
   return names;
 }
 
-RenderCamera cameraFor(const MapHierarchy& hierarchy, const std::string& view, double aspect) {
-  const auto points = corners(hierarchy);
+RenderCamera cameraFor(const MapHierarchy& hierarchy, const std::string& view, double aspect,
+                       const std::set<Label>& hidden) {
+  const auto points = corners(hierarchy, hidden);
   Eigen::AlignedBox3d bounds;
   for (const Eigen::Vector3d& point : points) bounds.extend(point);
   RenderCamera camera;
@@ -151,7 +153,8 @@ RenderCamera cameraFor(const MapHierarchy& hierarchy, const std::string& view, d
     camera.azimuth = seen + turn;
     camera.elevation = 38.0;
     camera.distance = distanceFor(camera, points, aspect);
-    candidates.emplace_back(camera, inTheWay(hierarchy, camera, radius));
+    const bool background = !hidden.contains(hierarchy.root().label());
+    candidates.emplace_back(camera, background ? inTheWay(hierarchy, camera, radius) : 0);
   }
   const auto by_blocked = [](const auto& a, const auto& b) { return a.second < b.second; };
   const std::size_t least = std::min_element(candidates.begin(), candidates.end(), by_blocked)->second;

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <set>
 #include <string>
 
 #include "hoctomap/hierarchy/MapHierarchy.h"
@@ -18,8 +19,9 @@ struct RenderCamera {
 };
 
 /// A camera that frames tables and objects (the background if there are none).
-/// @param aspect width over height of the picture.
+/// @param aspect width over height of the picture. @param hidden labels of nodes that are left out.
 /// @throws ConfigError if there is no such view.
-[[nodiscard]] RenderCamera cameraFor(const MapHierarchy& hierarchy, const std::string& view, double aspect);
+[[nodiscard]] RenderCamera cameraFor(const MapHierarchy& hierarchy, const std::string& view, double aspect,
+                                     const std::set<Label>& hidden = {});
 
 }  // namespace hoctomap

@@ -30,11 +30,11 @@ void point(mrpt::opengl::CCamera& camera, const RenderCamera& view) {
 
 mrpt::img::CImage picture(const MapHierarchy& hierarchy, const RenderOptions& options) {
   mrpt::opengl::COpenGLScene scene;
-  scene.insert(sceneOf(hierarchy, {true, options.labels, options.labels}));
+  scene.insert(sceneOf(hierarchy, {true, options.labels, options.labels, options.hidden}));
   auto viewport = scene.getViewport();
   viewport->setCustomBackgroundColor({1.0F, 1.0F, 1.0F});
   const RenderCamera view =
-      cameraFor(hierarchy, options.view, static_cast<double>(options.width) / options.height);
+      cameraFor(hierarchy, options.view, static_cast<double>(options.width) / options.height, options.hidden);
   viewport->setViewportClipDistances(static_cast<float>(0.02 * view.distance),
                                      static_cast<float>(20.0 * view.distance));
   mrpt::opengl::CFBORender renderer(kSamples * options.width, kSamples * options.height);

@@ -135,11 +135,12 @@ mrpt::opengl::CText3D::Ptr textOf(const MapNode& node, const Eigen::AlignedBox3d
   return text;
 }
 
-mrpt::opengl::CSetOfObjects::Ptr groupOf(const MapHierarchy& hierarchy, NodeId id, SceneParts parts) {
+mrpt::opengl::CSetOfObjects::Ptr groupOf(const MapHierarchy& hierarchy, NodeId id, const SceneParts& parts) {
   const MapNode& node = hierarchy.node(id);
   auto group = mrpt::opengl::CSetOfObjects::Create();
   group->setName("node " + std::to_string(id.value) + " " + node.label().name);
   group->setPose(node.parent_T_node());
+  if (parts.hidden.contains(node.label())) return group;
   if (parts.surface) {
     group->insert(surfaceOf(node, hierarchy.world_T_node(id)));
   } else {
@@ -154,7 +155,7 @@ mrpt::opengl::CSetOfObjects::Ptr groupOf(const MapHierarchy& hierarchy, NodeId i
 
 }  // namespace
 
-mrpt::opengl::CSetOfObjects::Ptr sceneOf(const MapHierarchy& hierarchy, SceneParts parts) {
+mrpt::opengl::CSetOfObjects::Ptr sceneOf(const MapHierarchy& hierarchy, const SceneParts& parts) {
   std::map<NodeId, mrpt::opengl::CSetOfObjects::Ptr> groups;
   for (const NodeId id : hierarchy.preorder()) {
     groups[id] = groupOf(hierarchy, id, parts);

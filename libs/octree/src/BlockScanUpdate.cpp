@@ -2,7 +2,6 @@
 #include "hoctomap/octree/BlockScanUpdate.h"
 
 #include <tbb/global_control.h>
-#include <tbb/parallel_for.h>
 #include <tbb/task_arena.h>
 
 #include <algorithm>
@@ -11,6 +10,7 @@
 #include "BeamDensity.h"
 #include "BulkUpdate.h"
 #include "ScanMarks.h"
+#include "hoctomap/geometry/ForEachIndex.h"
 
 namespace hoctomap {
 
@@ -140,10 +140,7 @@ class ScanPass {
       if (tasks == 1) {
         mark(0);
       } else {
-        // Of its own: an error elsewhere in a parallel loop that this update is a part of must not leave
-        // shares out.
-        tbb::task_group_context context(tbb::task_group_context::isolated);
-        tbb::this_task_arena::isolate([&] { tbb::parallel_for(std::size_t{0}, tasks, mark, context); });
+        tbb::this_task_arena::isolate([&] { forEachIndex(tasks, mark); });
       }
       for (std::size_t task = 1; task < tasks; ++task) {
         marks[0]->unite(*marks[task]);

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "BulkUpdate.h"
 
-#include <tbb/parallel_for.h>
 #include <tbb/task_arena.h>
 
 #include <vector>
 
 #include "SubtreeUpdate.h"
+#include "hoctomap/geometry/ForEachIndex.h"
 
 namespace hoctomap::engine {
 
@@ -78,7 +78,7 @@ class UpperNodes {
 void updateBlocks(const OccupancyOdds& odds, std::span<const BlockMarks> blocks, std::span<BlockJob> jobs) {
   // Isolated, lest a thread that waits here takes up another node's update, with memory of its own.
   tbb::this_task_arena::isolate([&] {
-    tbb::parallel_for(std::size_t{0}, jobs.size(), [&](std::size_t i) {
+    forEachIndex(jobs.size(), [&](std::size_t i) {
       BlockJob& job = jobs[i];
       if (job.node == nullptr) return;
       SubtreeUpdate updater(odds);

@@ -2,13 +2,14 @@
 #include "VoxelBits.h"
 
 #include <sys/mman.h>
-#include <tbb/parallel_for.h>
 #include <tbb/task_arena.h>
 
 #include <algorithm>
 #include <bit>
 #include <cstring>
 #include <new>
+
+#include "hoctomap/geometry/ForEachIndex.h"
 
 namespace hoctomap::engine {
 
@@ -64,7 +65,7 @@ std::uint64_t VoxelBits::blockPages(Code local_block) const {
 
 void VoxelBits::unite(const VoxelBits& other) {
   tbb::this_task_arena::isolate([&] {
-    tbb::parallel_for(std::size_t{0}, pages_.size(), [&](std::size_t page) {
+    forEachIndex(pages_.size(), [&](std::size_t page) {
       if (other.pages_[page] == 0) return;
       BlockBits* to = words_ + page * kPageWords;
       const BlockBits* from = other.words_ + page * kPageWords;

@@ -14,7 +14,7 @@
 namespace hoctomap {
 
 enum class UtilityForm : std::uint8_t {
-  ratio,    ///< gain / cost: Eq. 13 of the logarithms of gain and cost with alpha = 0.5
+  ratio,    ///< gain^(alpha / (1 - alpha)) / cost: orders as Eq. 13 of the logarithms of gain and cost
   additive  ///< Eq. 13: alpha * gain - (1 - alpha) * cost
 };
 
@@ -24,11 +24,12 @@ struct ExplorationConfig {
   GainConfig gain;
   TableSpace space;
   UtilityForm utility = UtilityForm::ratio;
-  double alpha = 0.5;  ///< of `additive`
+  double alpha = 0.5;  ///< weight of the gain, Eq. 13
   double tau = 0.03;   ///< a table is explored when no gain is more than this share of its first one
   int first_look = 7;  ///< views around at the start, for the background
   int max_views = 20;  ///< of one table
   double cleared_resolution = 0.01;  ///< m
+  RangeNoise noise;                  ///< of the sensor: what is measured worse than that is not known
   double cell = 0.005;               ///< m, of the grid that gains are computed in
   std::uint64_t seed = 1;
 };
@@ -110,12 +111,14 @@ class Explorer {
   [[nodiscard]] static Wanted wantedOf(const TableState& state);
   void evaluate(ExplorationStep& step, const std::vector<Viewpoint>& candidates,
                 const KnowledgeGrid& knowledge, const TravelCost& travel, Wanted wanted) const;
+  [[nodiscard]] double utilityOf(double gain, double cost) const;
   void goAndMeasure(TableState& state, const TravelCost& travel, ExplorationStep& step);
   void measure(ExplorationStep& step);
   void end(TableState& state, TableOutcome outcome, ExplorationStep& step);
   void report(ExplorationStep& step);
   [[nodiscard]] const ClearedSpace& clearedOf(TableState& state);
-  [[nodiscard]] std::vector<Viewpoint> candidatesOf(const TableArea& area, const TravelCost& travel) const;
+  [[nodiscard]] std::vector<Viewpoint> candidatesOf(const TableArea& area, const TravelCost& travel,
+                                                    std::uint64_t draw) const;
 
   ExplorationConfig config_;
   Robot& robot_;
@@ -126,8 +129,13 @@ class Explorer {
   OnMeasurement on_measurement_;
   OnStep on_step_;
   std::map<NodeId, TableState> tables_;
-  std::vector<Scan> scans_;              ///< for the space over tables that are found later
-  std::vector<Eigen::Vector2d> failed_;  ///< places that could not be reached
+  std::vector<Scan> scans_;  ///< for the space over tables that are found later
+  /// Where the robot could not get to, and how far around it may not either.
+  struct FailedPlace {
+    Eigen::Vector2d place;
+    double radius;  ///< m
+  };
+  std::vector<FailedPlace> failed_;
   std::uint64_t steps_ = 0;
   ExplorationResult result_;
 };

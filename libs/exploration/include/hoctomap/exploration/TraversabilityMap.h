@@ -57,12 +57,14 @@ class TraversabilityMap {
 
   /// Before growing by the radius.
   [[nodiscard]] State state(const GridCell& cell) const { return states_[index(cell)]; }
-  /// True if the robot can stand with its centre there.
+  /// True if the robot can stand with its centre in the cell's middle, wherever in their cells the obstacles
+  /// are.
   [[nodiscard]] bool traversable(const GridCell& cell) const { return traversable_[index(cell)]; }
   /// Takes a cell, and what lies within `radius` m of it, out: the robot could not get there.
   void block(const Eigen::Vector2d& place, double radius);
 
  private:
+  void blockAround(const GridCell& obstacle, double radius);
   void project(const MapHierarchy& map, double lowest, double highest);
   /// Calls `visit(index)` for the cells whose centres lie within a radius.
   template <class Visit>

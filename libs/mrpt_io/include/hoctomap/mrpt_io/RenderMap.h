@@ -2,6 +2,7 @@
 #pragma once
 
 #include <filesystem>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -13,7 +14,8 @@ struct RenderOptions {
   unsigned width = 1600;   ///< pixels
   unsigned height = 1000;  ///< pixels
   std::string view = "oblique";
-  bool labels = false;  ///< also the boxes of the nodes and their labels
+  bool labels = false;       ///< also the boxes of the nodes and their labels
+  std::set<Label> hidden{};  ///< nodes of these labels are left out
 };
 
 /// What `RenderOptions::view` may be, besides `AZIMUTH,ELEVATION` (degrees, of the eye as seen from what is
