@@ -118,10 +118,10 @@ TEST(Trial, GoesAroundTheTable) {
     }
     if (method != ViewMethod::recommended) continue;
     // The gain foretells what a view would show.
-    ASSERT_FALSE(trial.steps.empty());
+    ASSERT_FALSE(trial.checks.empty());
     std::vector<double> gains;
     std::vector<double> cells;
-    for (const GainCheck& check : trial.steps.front()) {
+    for (const GainCheck& check : trial.checks.front()) {
       gains.push_back(check.gain);
       cells.push_back(check.cells);
     }
