@@ -50,10 +50,12 @@ class Registrar {
       rest.verdict = Match::different;
       return rest;
     }
-    // A few points tell what is nearly square by chance: all are asked before one turn is chosen.
+    // A few points tell what is nearly square by chance: of a thing that fits, all turns are followed to their
+    // end before one is chosen.
     const Registration first = *std::max_element(candidates.begin(), candidates.end(), fitsWorse);
+    const double margin = first.verdict == Match::same ? 2.0 * config_.rival_score : 0.0;
     for (Registration& c : candidates) {
-      if (fitsNearlyAs(c, first, 2.0 * config_.rival_score)) c = polished(c);
+      if (fitsNearlyAs(c, first, margin)) c = polished(c);
     }
     const Registration best = *std::max_element(candidates.begin(), candidates.end(), fitsWorse);
     std::erase_if(candidates, [&](const auto& c) { return !fitsNearlyAs(c, best, config_.rival_score); });
@@ -92,12 +94,16 @@ class Registrar {
   [[nodiscard]] Registration polished(const Registration& start) const {
     const Eigen::Isometry3f from = judge_.toLocal(start.motion);
     Registration best = judge_.judged(from, seen_.size() + model_.size());
-    for (const Freedom freedom : {Freedom::yaw_and_shift, Freedom::yaw_and_shift, Freedom::rigid}) {
+    const auto improves = [&](Freedom freedom) {
       const Registration r = judge_.judged(
           points_.refined(judge_.toLocal(best.motion), 8, judge_.near(), freedom, 2 * kFinePoints),
           seen_.size() + model_.size());
-      if (!fitsWorse(r, best)) best = r;
-    }
+      if (fitsWorse(r, best)) return false;
+      best = r;
+      return true;
+    };
+    if (improves(Freedom::yaw_and_shift)) improves(Freedom::yaw_and_shift);
+    improves(Freedom::rigid);
     return best;
   }
 

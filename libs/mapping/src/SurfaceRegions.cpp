@@ -4,7 +4,9 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <numeric>
 #include <queue>
+#include <utility>
 
 #include "CellKey.h"
 
@@ -39,6 +41,58 @@ struct Candidate {
   }
 };
 
+/// The borders of one region, in the order of the others: short lists that are walked far more often than
+/// changed.
+class Borders {
+ public:
+  struct Entry {
+    Index other;
+    Border border;
+  };
+
+  /// In any order, also several of one other; before anything else `settle` puts them into theirs.
+  void append(Index other, const Border& border) { entries_.push_back({other, border}); }
+  void settle() {
+    std::sort(entries_.begin(), entries_.end(), isBefore);
+    std::size_t kept = 0;
+    for (std::size_t i = 0; i < entries_.size(); ++i) {
+      if (kept > 0 && entries_[kept - 1].other == entries_[i].other)
+        entries_[kept - 1].border.add(entries_[i].border);
+      else
+        entries_[kept++] = entries_[i];
+    }
+    entries_.resize(kept);
+  }
+
+  [[nodiscard]] std::size_t size() const { return entries_.size(); }
+  [[nodiscard]] auto begin() const { return entries_.begin(); }
+  [[nodiscard]] auto end() const { return entries_.end(); }
+  [[nodiscard]] const Border* find(Index other) const {
+    const auto at = std::lower_bound(entries_.begin(), entries_.end(), Entry{other, {}}, isBefore);
+    return at != entries_.end() && at->other == other ? &at->border : nullptr;
+  }
+  /// There is one.
+  [[nodiscard]] const Border& at(Index other) const {
+    return std::lower_bound(entries_.begin(), entries_.end(), Entry{other, {}}, isBefore)->border;
+  }
+  void set(Index other, const Border& border) {
+    const auto at = std::lower_bound(entries_.begin(), entries_.end(), Entry{other, {}}, isBefore);
+    if (at != entries_.end() && at->other == other)
+      at->border = border;
+    else
+      entries_.insert(at, {other, border});
+  }
+  void erase(Index other) {
+    const auto at = std::lower_bound(entries_.begin(), entries_.end(), Entry{other, {}}, isBefore);
+    if (at != entries_.end() && at->other == other) entries_.erase(at);
+  }
+  void clear() { entries_.clear(); }
+
+ private:
+  static bool isBefore(const Entry& a, const Entry& b) { return a.other < b.other; }
+  std::vector<Entry> entries_;
+};
+
 class Merging {
  public:
   explicit Merging(std::vector<Cell> cells) : cells_(std::move(cells)), borders_(cells_.size()) {
@@ -48,12 +102,14 @@ class Merging {
     }
   }
 
+  /// All of them, before the rest.
   void addBorder(Index a, Index b, const Border& border) {
-    borders_[a][b].add(border);
-    borders_[b][a].add(border);
+    borders_[a].append(b, border);
+    borders_[b].append(a, border);
   }
 
   void mergeWhatIsOne() {
+    for (auto& borders : borders_) borders.settle();
     for (Index a = 0; a < borders_.size(); ++a) {
       for (const auto& [b, border] : borders_[a]) {
         if (a < b) propose(a, b, border);
@@ -62,8 +118,8 @@ class Merging {
     while (!queue_.empty()) {
       const Candidate top = queue_.top();
       queue_.pop();
-      const auto found = borders_[top.a].find(top.b);
-      if (found == borders_[top.a].end() || found->second.certainty() != top.certainty) continue;  // outdated
+      const Border* const border = borders_[top.a].find(top.b);
+      if (border == nullptr || border->certainty() != top.certainty) continue;  // outdated
       merge(top.a, top.b);
     }
   }
@@ -113,9 +169,7 @@ class Merging {
     while (parent_[cell] != cell) cell = parent_[cell] = parent_[parent_[cell]];
     return cell;
   }
-  [[nodiscard]] const std::unordered_map<Index, Border>& bordersOf(Index region) const {
-    return borders_[region];
-  }
+  [[nodiscard]] const Borders& bordersOf(Index region) const { return borders_[region]; }
 
  private:
   [[nodiscard]] bool isRegion(Index r) const { return parent_[r] == r; }
@@ -130,10 +184,14 @@ class Merging {
     borders_[a].erase(b);
     for (const auto& [other, border] : borders_[b]) {
       if (other == a) continue;
+      borders_[a].append(other, border);
+    }
+    borders_[a].settle();
+    for (const auto& [other, border] : borders_[b]) {
+      if (other == a) continue;
+      const Border& sum = borders_[a].at(other);
       borders_[other].erase(b);
-      Border& sum = borders_[a][other];
-      sum.add(border);
-      borders_[other][a] = sum;
+      borders_[other].set(a, sum);
       propose(a, other, sum);
     }
     borders_[b].clear();
@@ -189,56 +247,98 @@ class Merging {
 
   static constexpr double kMostly = 0.9;  // of a piece: cells along seams go either way
   std::vector<Cell> cells_;
-  std::vector<std::unordered_map<Index, Border>> borders_;
+  std::vector<Borders> borders_;
   std::vector<Index> parent_;
   std::vector<std::vector<Index>> members_;
   std::priority_queue<Candidate> queue_;
 };
 
-/// All cells that hang together with `seeds`, in order.
-std::vector<Cell> connected(const SeamVotes& votes, const SeamVotes::Cells& seeds) {
-  const auto& all = votes.all();
-  SeamVotes::Cells found;
-  std::vector<Cell> open;
-  const auto reach = [&](const Cell& cell) {
-    const auto of_cell = all.find(cell);
-    if (of_cell == all.end() || !of_cell->second.is_object) return;
-    if (found.insert(cell).second) open.push_back(cell);
-  };
-  for (const Cell& seed : seeds) reach(seed);
-  while (!open.empty()) {
-    const Cell cell = open.back();
-    open.pop_back();
-    for (std::size_t d = 0; d < SeamVotes::kDirections; ++d) {
-      reach(SeamVotes::partner(cell, d));
-      reach(SeamVotes::partner(cell, d, -1));
+/// The cells of objects, and which of them have a border: those that some scan has shown together, and
+/// neighbours.
+class CellGraph {
+ public:
+  explicit CellGraph(const SeamVotes& votes) {
+    index_.reserve(2 * votes.all().size());
+    for (const auto& entry : votes.all()) {
+      if (!entry.second.is_object) continue;
+      index_[cellKey(entry.first)] = static_cast<Index>(entries_.size());
+      entries_.push_back(&entry);
     }
   }
-  return {found.begin(), found.end()};
+
+  [[nodiscard]] std::size_t size() const { return entries_.size(); }
+  [[nodiscard]] const Cell& cell(Index i) const { return entries_[i]->first; }
+  [[nodiscard]] std::optional<Index> find(const Cell& cell) const {
+    const auto found = index_.find(cellKey(cell));
+    return found == index_.end() ? std::nullopt : std::optional(found->second);
+  }
+
+  /// Calls `visit(j, border)` for the cells that have a border with cell i, each border from one of its sides
+  /// only.
+  template <typename Visit>
+  void forBorders(Index i, const Visit& visit) const {
+    // Neighbours are one unless scans say otherwise: views drift apart by a cell.
+    constexpr Border kNeighbours{-1, 1};
+    const auto& [c, votes] = *entries_[i];
+    for (std::size_t d = 0; d < SeamVotes::kDirections; ++d) {
+      if (!votes.known[d]) continue;
+      if (const auto j = find(SeamVotes::partner(c, d))) visit(*j, Border{votes.evidence[d], 1});
+    }
+    for (int step = 14; step < 27; ++step) {  // half of the 26 neighbours
+      const auto j = find({c.x + step / 9 - 1, c.y + step / 3 % 3 - 1, c.z + step % 3 - 1});
+      if (j) visit(*j, kNeighbours);
+    }
+  }
+
+ private:
+  std::vector<const std::pair<const Cell, SeamVotes::Votes>*> entries_;
+  std::unordered_map<std::uint64_t, Index> index_;
+};
+
+struct CellBorder {
+  Index a;
+  Index b;
+  Border border;
+};
+
+/// Whether each cell hangs together with one of `seeds`.
+std::vector<bool> connected(const CellGraph& graph, const std::vector<CellBorder>& borders,
+                            const SeamVotes::Cells& seeds) {
+  std::vector<Index> parent(graph.size());
+  std::iota(parent.begin(), parent.end(), Index{0});
+  const auto root = [&](Index i) {
+    while (parent[i] != i) i = parent[i] = parent[parent[i]];
+    return i;
+  };
+  for (const CellBorder& border : borders) parent[root(border.a)] = root(border.b);
+  std::vector<bool> is_seeded(graph.size(), false);
+  for (const Cell& seed : seeds) {
+    if (const auto i = graph.find(seed)) is_seeded[root(*i)] = true;
+  }
+  std::vector<bool> found(graph.size(), false);
+  for (Index i = 0; i < graph.size(); ++i) found[i] = is_seeded[root(i)];
+  return found;
 }
 
 }  // namespace
 
 SurfaceRegions::SurfaceRegions(const SeamVotes& votes, const SeamVotes::Cells& seeds) {
-  // Neighbours are one unless scans say otherwise: views drift apart by a cell.
-  constexpr Border kNeighbours{-1, 1};
-  const std::vector<Cell> cells = connected(votes, seeds);
-  std::unordered_map<std::uint64_t, Index> index;
-  for (Index i = 0; i < cells.size(); ++i) index[cellKey(cells[i])] = i;
+  const CellGraph graph(votes);
+  std::vector<CellBorder> borders;
+  for (Index i = 0; i < graph.size(); ++i) {
+    graph.forBorders(i, [&](Index j, const Border& border) { borders.push_back({i, j, border}); });
+  }
+  const std::vector<bool> is_ours = connected(graph, borders, seeds);
+  std::vector<Cell> cells;
+  std::vector<Index> number_of(graph.size(), 0);
+  for (Index i = 0; i < graph.size(); ++i) {
+    if (!is_ours[i]) continue;
+    number_of[i] = static_cast<Index>(cells.size());
+    cells.push_back(graph.cell(i));
+  }
   Merging merging(cells);
-  for (Index i = 0; i < cells.size(); ++i) {
-    const auto& of_cell = votes.all().at(cells[i]);
-    for (std::size_t d = 0; d < SeamVotes::kDirections; ++d) {
-      if (!of_cell.known[d]) continue;
-      const auto other = index.find(cellKey(SeamVotes::partner(cells[i], d)));
-      if (other != index.end()) merging.addBorder(i, other->second, {of_cell.evidence[d], 1});
-    }
-    for (int step = 14; step < 27; ++step) {  // half of the 26 neighbours
-      const Cell& c = cells[i];
-      const auto other =
-          index.find(cellKey({c.x + step / 9 - 1, c.y + step / 3 % 3 - 1, c.z + step % 3 - 1}));
-      if (other != index.end()) merging.addBorder(i, other->second, kNeighbours);
-    }
+  for (const CellBorder& border : borders) {
+    if (is_ours[border.a]) merging.addBorder(number_of[border.a], number_of[border.b], border.border);
   }
   merging.mergeWhatIsOne();
   merging.absorbFragments();
