@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numbers>
 #include <vector>
 
@@ -18,6 +19,7 @@ constexpr std::size_t kFewPoints = 60;      // enough to drop turns that are far
 constexpr std::size_t kCoarsePoints = 120;  // enough to tell the turns apart
 constexpr std::size_t kFinePoints = 350;
 constexpr std::size_t kJudgedPoints = 600;  // one percent of a share
+constexpr std::size_t kAll = std::numeric_limits<std::size_t>::max();
 constexpr std::size_t kTurnsFollowed = 7;
 constexpr std::size_t kRefinedStarts = 4;
 constexpr double kOtherTurn = 0.17;  // rad; nearer turns are one fit
@@ -55,7 +57,7 @@ class Registrar {
     const Registration first = *std::max_element(candidates.begin(), candidates.end(), fitsWorse);
     const double margin = first.verdict == Match::same ? 2.0 * config_.rival_score : 0.0;
     for (Registration& c : candidates) {
-      if (fitsNearlyAs(c, first, margin)) c = polished(c);
+      if (margin > 0.0 && fitsNearlyAs(c, first, margin)) improve(c, Freedom::yaw_and_shift, kJudgedPoints);
     }
     const Registration best = *std::max_element(candidates.begin(), candidates.end(), fitsWorse);
     std::erase_if(candidates, [&](const auto& c) { return !fitsNearlyAs(c, best, config_.rival_score); });
@@ -64,6 +66,7 @@ class Registrar {
     for (const Registration& c : candidates) {
       if (turn(c.motion) < turn(result.motion) - kOtherTurn) result = c;
     }
+    result = polished(result);
     for (const Registration& c : candidates) {
       const double other = std::remainder(yaw(c.motion) - yaw(result.motion), 2.0 * std::numbers::pi);
       if (std::abs(other) > kOtherTurn) result.other_turns.push_back(other);
@@ -93,18 +96,19 @@ class Registrar {
   /// All points, and six degrees of freedom if they explain more.
   [[nodiscard]] Registration polished(const Registration& start) const {
     const Eigen::Isometry3f from = judge_.toLocal(start.motion);
-    Registration best = judge_.judged(from, seen_.size() + model_.size());
-    const auto improves = [&](Freedom freedom) {
-      const Registration r = judge_.judged(
-          points_.refined(judge_.toLocal(best.motion), 8, judge_.near(), freedom, 2 * kFinePoints),
-          seen_.size() + model_.size());
-      if (fitsWorse(r, best)) return false;
-      best = r;
-      return true;
-    };
-    if (improves(Freedom::yaw_and_shift)) improves(Freedom::yaw_and_shift);
-    improves(Freedom::rigid);
+    Registration best = judge_.judged(from, kAll);
+    if (improve(best, Freedom::yaw_and_shift, kAll)) improve(best, Freedom::yaw_and_shift, kAll);
+    improve(best, Freedom::rigid, kAll);
     return best;
+  }
+
+  /// Takes what a refinement with more points finds, if it fits better.
+  bool improve(Registration& r, Freedom freedom, std::size_t judged_points) const {
+    Registration refined = judge_.judged(
+        points_.refined(judge_.toLocal(r.motion), 8, judge_.near(), freedom, 2 * kFinePoints), judged_points);
+    if (fitsWorse(refined, r)) return false;
+    r = std::move(refined);
+    return true;
   }
 
   /// Turns about the vertical through the aligned centroids, each brought near by yaw and shift; the best
