@@ -5,6 +5,7 @@
 #include <cmath>
 #include <functional>
 #include <memory>
+#include <set>
 
 #include "BeamTraces.h"
 #include "SurfaceRegistration.h"
@@ -161,18 +162,28 @@ class Finder {
     const double spacing = config_.registration.spacing;
     std::vector<std::unique_ptr<RegistrationSurface>> models(doubtful.size());
     std::vector<std::unique_ptr<RegistrationSurface>> seen(segments.size());
-    for (const auto& [n, s] : trials) {
-      if (!models[n]) models[n] = std::make_unique<RegistrationSurface>(doubtful[n].world_voxels, spacing);
-      if (!seen[s]) seen[s] = std::make_unique<RegistrationSurface>(*segments[s].world_points, spacing);
-    }
     std::vector<RegistrationSight> sights;
     for (const DoubtfulNode& node : doubtful) sights.push_back(sightFor(node.id));
-    for (std::size_t n = 0; n < models.size(); ++n) {
-      if (models[n]) orientModel(*models[n], sights[n]);
+    std::set<std::size_t> nodes_asked;
+    std::set<std::size_t> segments_asked;
+    for (const auto& [n, s] : trials) {
+      nodes_asked.insert(n);
+      segments_asked.insert(s);
     }
-    for (const auto& surface : seen) {
-      if (surface) orientSeen(*surface, RegistrationSight{nullptr, origin_});
+    std::vector<std::function<void()>> preparations;
+    for (const std::size_t n : nodes_asked) {
+      preparations.emplace_back([&, n] {
+        models[n] = std::make_unique<RegistrationSurface>(doubtful[n].world_voxels, spacing);
+        orientModel(*models[n], sights[n]);
+      });
     }
+    for (const std::size_t s : segments_asked) {
+      preparations.emplace_back([&, s] {
+        seen[s] = std::make_unique<RegistrationSurface>(*segments[s].world_points, spacing);
+        orientSeen(*seen[s], RegistrationSight{nullptr, origin_});
+      });
+    }
+    forEachIndex(preparations.size(), [&](std::size_t k) { preparations[k](); });
     std::vector<Registration> result(trials.size());
     forEachIndex(trials.size(), [&](std::size_t k) {
       const auto& [n, s] = trials[k];

@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "CellKey.h"
+#include "hoctomap/geometry/ForEachIndex.h"
 
 namespace hoctomap {
 
@@ -301,9 +302,9 @@ struct CellBorder {
   Border border;
 };
 
-/// Whether each cell hangs together with one of `seeds`.
-std::vector<bool> connected(const CellGraph& graph, const std::vector<CellBorder>& borders,
-                            const SeamVotes::Cells& seeds) {
+/// The cells that hang together, in order, of every group that holds one of `seeds`.
+std::vector<std::vector<Index>> groups(const CellGraph& graph, const std::vector<CellBorder>& borders,
+                                       const SeamVotes::Cells& seeds) {
   std::vector<Index> parent(graph.size());
   std::iota(parent.begin(), parent.end(), Index{0});
   const auto root = [&](Index i) {
@@ -311,14 +312,24 @@ std::vector<bool> connected(const CellGraph& graph, const std::vector<CellBorder
     return i;
   };
   for (const CellBorder& border : borders) parent[root(border.a)] = root(border.b);
-  std::vector<bool> is_seeded(graph.size(), false);
+  std::map<Index, std::vector<Index>> of_root;
   for (const Cell& seed : seeds) {
-    if (const auto i = graph.find(seed)) is_seeded[root(*i)] = true;
+    if (const auto i = graph.find(seed)) of_root[root(*i)];
   }
-  std::vector<bool> found(graph.size(), false);
-  for (Index i = 0; i < graph.size(); ++i) found[i] = is_seeded[root(i)];
+  for (Index i = 0; i < graph.size(); ++i) {
+    const auto found = of_root.find(root(i));
+    if (found != of_root.end()) found->second.push_back(i);
+  }
+  std::vector<std::vector<Index>> found;
+  for (auto& [i, cells] : of_root) found.push_back(std::move(cells));
   return found;
 }
+
+/// A cell of a group.
+struct Place {
+  std::size_t group;
+  Index cell;
+};
 
 }  // namespace
 
@@ -328,32 +339,40 @@ SurfaceRegions::SurfaceRegions(const SeamVotes& votes, const SeamVotes::Cells& s
   for (Index i = 0; i < graph.size(); ++i) {
     graph.forBorders(i, [&](Index j, const Border& border) { borders.push_back({i, j, border}); });
   }
-  const std::vector<bool> is_ours = connected(graph, borders, seeds);
-  std::vector<Cell> cells;
-  std::vector<Index> number_of(graph.size(), 0);
-  for (Index i = 0; i < graph.size(); ++i) {
-    if (!is_ours[i]) continue;
-    number_of[i] = static_cast<Index>(cells.size());
-    cells.push_back(graph.cell(i));
+  std::vector<std::optional<Place>> places(graph.size());
+  std::vector<Merging> mergings;
+  for (const auto& group : groups(graph, borders, seeds)) {
+    std::vector<Cell> cells;
+    for (const Index i : group) {
+      places[i] = Place{mergings.size(), static_cast<Index>(cells.size())};
+      cells.push_back(graph.cell(i));
+    }
+    mergings.emplace_back(std::move(cells));
   }
-  Merging merging(cells);
-  for (const CellBorder& border : borders) {
-    if (is_ours[border.a]) merging.addBorder(number_of[border.a], number_of[border.b], border.border);
+  for (const auto& [a, b, border] : borders) {
+    if (places[a]) mergings[places[a]->group].addBorder(places[a]->cell, places[b]->cell, border);
   }
-  merging.mergeWhatIsOne();
-  merging.absorbFragments();
-  merging.joinParts();
+  forEachIndex(mergings.size(), [&](std::size_t k) {
+    mergings[k].mergeWhatIsOne();
+    mergings[k].absorbFragments();
+    mergings[k].joinParts();
+  });
 
-  std::unordered_map<Index, Region> number;
-  for (Index i = 0; i < cells.size(); ++i) {
-    const auto [found, is_new] = number.try_emplace(merging.regionOf(i), static_cast<Region>(sizes_.size()));
+  std::vector<std::map<Index, Region>> number(mergings.size());  // by group and root
+  for (Index i = 0; i < graph.size(); ++i) {
+    if (!places[i]) continue;
+    auto& [group, cell] = *places[i];
+    const auto [found, is_new] =
+        number[group].try_emplace(mergings[group].regionOf(cell), static_cast<Region>(sizes_.size()));
     if (is_new) sizes_.push_back(0);
     ++sizes_[found->second];
-    region_of_cell_[cellKey(cells[i])] = found->second;
+    region_of_cell_[cellKey(graph.cell(i))] = found->second;
   }
-  for (const auto& [root, region] : number) {
-    for (const auto& [other, border] : merging.bordersOf(root))
-      seams_.insert(std::minmax(region, number.at(other)));
+  for (std::size_t group = 0; group < mergings.size(); ++group) {
+    for (const auto& [root, region] : number[group]) {
+      for (const auto& [other, border] : mergings[group].bordersOf(root))
+        seams_.insert(std::minmax(region, number[group].at(other)));
+    }
   }
 }
 
