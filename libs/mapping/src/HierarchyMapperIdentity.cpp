@@ -39,13 +39,20 @@ SegmentRegions regionsOf(const PointCloud& world_points, const SurfaceRegions& r
   std::map<SeamVotes::Cell, std::size_t> cells;
   std::map<Region, std::size_t> points;
   found.of_point.reserve(world_points.size());
+  std::optional<SeamVotes::Cell> last;
+  std::size_t* of_cell = nullptr;
   for (const auto& p : world_points) {
     const SeamVotes::Cell cell = SeamVotes::cellOf(p);
-    found.of_point.push_back(regions.at(cell));
-    if (!found.of_point.back()) continue;
-    ++points[*found.of_point.back()];
-    ++cells[cell];
+    if (cell != last) {  // neighbours often share one
+      last = cell;
+      found.of_point.push_back(regions.at(cell));
+      of_cell = found.of_point.back() ? &cells[cell] : nullptr;
+    } else {
+      found.of_point.push_back(found.of_point.back());
+    }
+    if (of_cell != nullptr) ++*of_cell;
   }
+  for (const auto& [cell, n] : cells) points[*regions.at(cell)] += n;
   if (points.empty()) return found;
   const Region most = std::max_element(points.begin(), points.end(), [](const auto& a, const auto& b) {
                         return a.second < b.second;
@@ -169,7 +176,7 @@ void HierarchyMapper::divideSegments(const SurfaceRegions& regions, const NodeRe
                                      const std::set<NodeId>& near, std::vector<LabelledPart>& parts) const {
   // The points of every region, of all segments; the label is that of the segment that has most of them.
   struct Share {
-    std::map<std::uint32_t, Eigen::Vector3f> points;
+    std::vector<std::pair<std::uint32_t, Eigen::Vector3f>> points;  // by their number in the scan
     std::map<std::size_t, std::size_t> segments;
   };
   std::map<Region, Share> shares;
@@ -180,17 +187,19 @@ void HierarchyMapper::divideSegments(const SurfaceRegions& regions, const NodeRe
     const bool follows = part.structure == Structure::cluster && !part.moved_node;
     const SegmentRegions found = follows ? regionsOf(part.world_points, regions, held) : SegmentRegions{};
     if (!found.most) {
-      settled.push_back(part);
+      settled.push_back(std::move(part));
       continue;
     }
     most_of_segment[s] = *found.most;
     for (std::size_t i = 0; i < found.of_point.size(); ++i) {
       Share& share = shares[*found.of_point[i]];
-      share.points.emplace(part.points[i], part.world_points[i]);
+      share.points.emplace_back(part.points[i], part.world_points[i]);
       ++share.segments[s];
     }
   }
-  for (const auto& [region, share] : shares) {
+  for (auto& [region, share] : shares) {
+    std::sort(share.points.begin(), share.points.end(),
+              [](const auto& a, const auto& b) { return a.first < b.first; });
     const std::size_t segment =
         std::max_element(share.segments.begin(), share.segments.end(), [](const auto& a, const auto& b) {
           return a.second < b.second;

@@ -2,6 +2,7 @@
 #include "hoctomap/mapping/SeamVotes.h"
 
 #include <Eigen/Eigenvalues>
+#include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
 #include <cstdlib>
@@ -87,15 +88,20 @@ constexpr std::size_t kGround = std::numeric_limits<std::size_t>::max();  // own
 /// Of ground that lies near a segment: its cells in which no segment has a point.
 void addGround(std::span<const PointCloud* const> ground, std::unordered_map<std::uint64_t, SeenCell>& by_key) {
   std::unordered_set<std::uint64_t> near;  // cells of pairs with a segment's
+  Eigen::AlignedBox3f around;              // of these, m
   for (const auto& [key, seen] : by_key) {
     for (std::size_t d = 0; d < SeamVotes::kDirections; ++d) {
       for (const int sign : {1, -1}) near.insert(cellKey(SeamVotes::partner(seen.cell, d, sign)));
     }
+    around.extend(cornerOf(seen.cell).cast<float>());
   }
+  const Eigen::Array3f margin = Eigen::Array3f::Constant(3.0F * SeamVotes::kCell);
+  around = {around.min().array() - margin, around.max().array() + margin};
   std::uint64_t last_key = 0;
   SeenCell* last = nullptr;
   for (const PointCloud* points : ground) {
     for (const auto& p : *points) {
+      if (!around.contains(p)) continue;
       const Cell cell = SeamVotes::cellOf(p);
       const std::uint64_t key = cellKey(cell);
       if (last == nullptr || key != last_key) {  // points come in rows
