@@ -10,6 +10,7 @@
 #include "ClosestPoints.h"
 #include "MotionJudge.h"
 #include "SurfaceRegistration.h"
+#include "hoctomap/geometry/ForEachIndex.h"
 
 namespace hoctomap {
 
@@ -43,11 +44,12 @@ class Registrar {
     Registration rest = judge_.judged(points_.atRest(), kJudgedPoints);
     rest.rest_score = rest.score;
     if (rest.score >= config_.at_rest) return rest;
-    std::vector<Registration> candidates;
-    for (const Eigen::Isometry3f& start : coarseMotions()) {
-      candidates.push_back(judge_.judged(
-          points_.refined(start, 8, judge_.near(), Freedom::yaw_and_shift, kFinePoints), kJudgedPoints));
-    }
+    const std::vector<Eigen::Isometry3f> coarse = coarseMotions();
+    std::vector<Registration> candidates(coarse.size());
+    forEachIndex(coarse.size(), [&](std::size_t k) {
+      candidates[k] = judge_.judged(
+          points_.refined(coarse[k], 8, judge_.near(), Freedom::yaw_and_shift, kFinePoints), kJudgedPoints);
+    });
     if (candidates.empty()) {  // nowhere near at any turn
       rest.verdict = Match::different;
       return rest;
@@ -56,9 +58,10 @@ class Registrar {
     // end before one is chosen.
     const Registration first = *std::max_element(candidates.begin(), candidates.end(), fitsWorse);
     const double margin = first.verdict == Match::same ? 2.0 * config_.rival_score : 0.0;
-    for (Registration& c : candidates) {
+    forEachIndex(candidates.size(), [&](std::size_t k) {
+      Registration& c = candidates[k];
       if (margin > 0.0 && fitsNearlyAs(c, first, margin)) improve(c, Freedom::yaw_and_shift, kJudgedPoints);
-    }
+    });
     const Registration best = *std::max_element(candidates.begin(), candidates.end(), fitsWorse);
     std::erase_if(candidates, [&](const auto& c) { return !fitsNearlyAs(c, best, config_.rival_score); });
     // A round thing fits at any turn: the one it had is kept.
@@ -123,19 +126,19 @@ class Registrar {
                        [](const Start& a, const Start& b) { return a.distance < b.distance; });
     };
     const float far = 3.0F * judge_.near();
-    std::vector<Start> starts;
-    for (int k = 0; k < config_.yaw_starts; ++k) {
-      Eigen::Isometry3f motion =
-          points_.turned(static_cast<float>(2.0 * std::numbers::pi * k / config_.yaw_starts));
+    std::vector<Start> starts(static_cast<std::size_t>(config_.yaw_starts));
+    forEachIndex(starts.size(), [&](std::size_t k) {
+      Eigen::Isometry3f motion = points_.turned(
+          static_cast<float>(2.0 * std::numbers::pi * static_cast<double>(k) / config_.yaw_starts));
       points_.approach(motion, 3, 0.060F, 0.040F, kFewPoints);
-      starts.push_back({points_.meanDistance(motion, far, kCoarsePoints), motion});
-    }
+      starts[k] = {points_.meanDistance(motion, far, kCoarsePoints), motion};
+    });
     rank(starts);
     starts.resize(std::min(starts.size(), kTurnsFollowed));
-    for (Start& start : starts) {
-      points_.approach(start.motion, 6, 0.040F, 0.020F, kCoarsePoints);
-      start.distance = points_.meanDistance(start.motion, far, 2 * kCoarsePoints);
-    }
+    forEachIndex(starts.size(), [&](std::size_t k) {
+      points_.approach(starts[k].motion, 6, 0.040F, 0.020F, kCoarsePoints);
+      starts[k].distance = points_.meanDistance(starts[k].motion, far, 2 * kCoarsePoints);
+    });
     rank(starts);
     std::vector<Eigen::Isometry3f> best;
     for (const Start& start : starts) {
