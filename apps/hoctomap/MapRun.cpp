@@ -29,6 +29,7 @@ MapRun::MapRun(const Settings& settings, HierarchyMapper& mapper, MapDirectory& 
       motions_(motions),
       next_scan_(options_.first_scan),
       last_stamp_(options_.last_stamp),
+      summary_(options_.mapped_scans, options_.skipped_scans),
       memory_(settings.limits.max_memory) {}
 
 void MapRun::run(PipeSource& source, Progress& progress) {
@@ -139,7 +140,8 @@ void MapRun::finishScan(std::uint64_t scan) {
 void MapRun::commit(bool keep) {
   const auto start = Clock::now();
   directory_.commit({mapper_.hierarchy(), mapper_.removed(), next_scan_, options_.input, keep, last_stamp_,
-                     &mapper_.seams(), mapper_.sensor(), motions_.taken()});
+                     &mapper_.seams(), mapper_.sensor(), motions_.taken(), summary_.mappedInAll(),
+                     summary_.skippedInAll()});
   summary_.addSeconds("write", secondsSince(start));
 }
 

@@ -23,6 +23,8 @@ class MapRun {
     std::string input;                 ///< what the logs and events are known by in the map
     std::uint64_t first_scan = 0;      ///< the first one that is not in the map yet
     double last_stamp = 0.0;           ///< s, of the one before
+    std::uint64_t mapped_scans = 0;    ///< in the map already
+    std::uint64_t skipped_scans = 0;   ///< passed over before that
     std::uint64_t snapshot_every = 0;  ///< scans of the log; 0: no snapshots
   };
 

@@ -27,7 +27,7 @@ std::uint64_t RunSummary::skipped() const {
 }
 
 bool RunSummary::skippedMoreThan(double share) const {
-  return static_cast<double>(skipped()) > share * static_cast<double>(used_ + skipped());
+  return static_cast<double>(skippedInAll()) > share * static_cast<double>(mappedInAll() + skippedInAll());
 }
 
 std::string RunSummary::text() const {

@@ -13,6 +13,10 @@ namespace hoctomap {
 /// What a run took in, for its summary and its exit code.
 class RunSummary {
  public:
+  /// Scans that a continued map holds already count for the exit code.
+  explicit RunSummary(std::uint64_t mapped_before = 0, std::uint64_t skipped_before = 0)
+      : mapped_before_(mapped_before), skipped_before_(skipped_before) {}
+
   void addSkipped(const SkippedScan& skipped) { ++skipped_[skipped.reason]; }
   void addUsed(const Measurement& z);
   void addReport(const UpdateReport& report);
@@ -20,6 +24,8 @@ class RunSummary {
 
   [[nodiscard]] std::uint64_t used() const { return used_; }
   [[nodiscard]] std::uint64_t skipped() const;
+  [[nodiscard]] std::uint64_t mappedInAll() const { return mapped_before_ + used_; }
+  [[nodiscard]] std::uint64_t skippedInAll() const { return skipped_before_ + skipped(); }
   /// Whether more than `share` of the scans were skipped.
   [[nodiscard]] bool skippedMoreThan(double share) const;
 
@@ -27,6 +33,8 @@ class RunSummary {
   [[nodiscard]] std::string text() const;
 
  private:
+  std::uint64_t mapped_before_ = 0;
+  std::uint64_t skipped_before_ = 0;
   std::uint64_t used_ = 0;
   std::uint64_t empty_ = 0;
   std::uint64_t dropped_points_ = 0;

@@ -85,8 +85,10 @@ int build(const BuildOptions& options) {
   if (committed) log.info("continuing at scan " + std::to_string(committed->scans));
 
   HierarchyMapper mapper = makeMapper(settings, committed, directory.path());
+  const Manifest before = committed.value_or(Manifest());
   MapRun run(settings, mapper, directory, log,
-             {input.text(), read.resume_at, committed ? committed->last_stamp : 0.0, options.snapshot_every},
+             {input.text(), read.resume_at, before.last_stamp, before.mapped_scans, before.skipped_scans,
+              options.snapshot_every},
              motions);
   {
     Progress progress(log, source.totalScans(), options.log.quiet);

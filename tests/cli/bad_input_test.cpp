@@ -94,6 +94,23 @@ TEST(BadPoses, ScansWithoutAPoseAreSkippedAndCounted) {
   EXPECT_EQ(tolerant.exit_code, 0) << tolerant.err;
 }
 
+TEST(BadPoses, SkippedScansCountAlsoWhenTheRunWasStoppedAfterThem) {
+  const TemporaryFolder folder;
+  test::simulate("demo", folder / "a.rawlog");
+  test::writeFile(folder / "poses.txt",
+                  "1300000001.4 0 0 0 0 0 0\n1300000001.8 0 0 0 0 0 0\n1300000002.2 0 0 0 0 0 0\n"
+                  "1300000002.6 0 0 0 0 0 0\n");  // the first three scans have none
+  const std::vector<std::string> poses{"--poses", folder / "poses.txt", "--set", "poses.max_gap=0.5"};
+  auto first = poses;
+  first.insert(first.end(), {"--max-scans", "1"});
+  test::build(folder / "a.rawlog", folder / "map", first, 3);
+  auto rest = poses;
+  rest.emplace_back("--continue");
+  test::build(folder / "a.rawlog", folder / "map", rest, 3);
+  EXPECT_EQ(readManifest(folder / "map").mapped_scans, 3U);
+  EXPECT_EQ(readManifest(folder / "map").skipped_scans, 3U);
+}
+
 TEST(BadConfiguration, NamesAllProblemsTogether) {
   const TemporaryFolder folder;
   test::simulate("demo", folder / "a.rawlog");

@@ -167,6 +167,8 @@ Manifest readDocument(const YamlSection& document, const std::string& name) {
   Manifest manifest;
   manifest.generator = document["generator"].text();
   manifest.scans = document["scans"].count();
+  if (document.has("mapped_scans")) manifest.mapped_scans = document["mapped_scans"].count();
+  if (document.has("skipped_scans")) manifest.skipped_scans = document["skipped_scans"].count();
   if (document.has("last_stamp")) manifest.last_stamp = document["last_stamp"].number();
   manifest.config_sha256 = document["config_sha256"].text();
   manifest.input = document["input"].text();

@@ -91,6 +91,8 @@ std::string toYaml(const Manifest& manifest) {
   text += "format_version: " + std::to_string(manifest.format_version) + "\n";
   text += "generator: " + yamlText(manifest.generator) + "\n";
   text += "scans: " + std::to_string(manifest.scans) + "\n";
+  text += "mapped_scans: " + std::to_string(manifest.mapped_scans) + "\n";
+  text += "skipped_scans: " + std::to_string(manifest.skipped_scans) + "\n";
   text += "last_stamp: " + yamlNumber(manifest.last_stamp) + "\n";
   text += "config_sha256: " + yamlText(manifest.config_sha256) + "\n";
   text += "input: " + yamlText(manifest.input) + "\n";

@@ -122,6 +122,8 @@ Manifest MapDirectory::Session::describe(const MapState& state) {
   manifest.generator = options_.generator;
   manifest.scans = state.scans;
   manifest.last_stamp = state.last_stamp;
+  manifest.mapped_scans = state.mapped_scans;
+  manifest.skipped_scans = state.skipped_scans;
   manifest.config_sha256 = sha256Hex(options_.config);
   manifest.config = {kConfigName, options_.config.size(), manifest.config_sha256};
   manifest.input = state.input;

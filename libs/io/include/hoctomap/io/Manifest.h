@@ -71,7 +71,9 @@ struct Manifest {
   std::string generator;      ///< program and version
   std::uint64_t scans = 0;    ///< scans of the log taken in, skipped ones included: the index of the next
   double last_stamp = 0.0;    ///< s since 1970, of the last of them
-  std::string config_sha256;  ///< of `config.ini`
+  std::uint64_t mapped_scans = 0;   ///< of them, those that were of use ...
+  std::uint64_t skipped_scans = 0;  ///< ... and those that were not; the rest was not chosen
+  std::string config_sha256;        ///< of `config.ini`
   std::string input;  ///< what the caller knows the log by, in order to notice another one; may be empty
   NodeId next_id{1};  ///< id of the next new node
   FileRecord config;

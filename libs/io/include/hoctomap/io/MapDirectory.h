@@ -41,6 +41,8 @@ struct MapState {
   const SeamVotes* seams = nullptr;      ///< `HierarchyMapper::seams()`
   std::optional<StillSensor> sensor{};   ///< `HierarchyMapper::sensor()`
   std::optional<MotionsTaken> motions{};
+  std::uint64_t mapped_scans = 0;   ///< see Manifest
+  std::uint64_t skipped_scans = 0;  ///< see Manifest
 };
 
 /// One row of `timing.csv`: the scan's wall seconds.
