@@ -57,6 +57,7 @@ TEST(Pose, RefusesMatricesThatAreNoRigidMotion) {
     m(row, column) = value;
     return m;
   };
+  EXPECT_THROW(static_cast<void>(poseFromMatrix(with(1, 3, -1e300))), std::invalid_argument);
   EXPECT_THROW(static_cast<void>(poseFromMatrix(with(0, 3, std::numeric_limits<double>::quiet_NaN()))),
                std::invalid_argument);
   EXPECT_THROW(static_cast<void>(poseFromMatrix(with(1, 3, std::numeric_limits<double>::infinity()))),

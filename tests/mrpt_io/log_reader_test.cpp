@@ -282,6 +282,19 @@ TEST(LogReader, PoseSourceByTheContract) {
   EXPECT_NEAR(x(a + scan, file), 9.0, 1e-6);
 }
 
+TEST(LogReader, PosesBeyondAllMeasureAreAnErrorWithTheirPlace) {
+  DepthSpec far;
+  far.base_T_sensor = Pose(1e300, 0, 0, 0, 0, 0);
+  LogReadOptions options;
+  options.poses = "identity";
+  for (const std::string& log :
+       {test::depthObject(far), test::sweep(1) + test::poseObject(1.0, "p", far.base_T_sensor)}) {
+    const std::string error = errorOf<InputError>([&] { readBytes(log, options); });
+    EXPECT_NE(error.find("1000 km"), std::string::npos) << error;
+    EXPECT_NE(error.find("object"), std::string::npos) << error;
+  }
+}
+
 TEST(LogReader, TwoPosesAtOneTimeAreAnError) {
   const std::string log = test::poseObject(100.0, "groundtruth", Pose(9, 0, 0, 0, 0, 0)) + test::sweep(2);
   EXPECT_NE(errorOf<InputError>([&] { readBytes(log); }).find("same time"), std::string::npos);

@@ -32,6 +32,12 @@ Eigen::Isometry3d toIsometry(const Pose& pose) {
 
 Pose poseFromMatrix(const Eigen::Matrix4d& matrix) {
   if (!matrix.allFinite()) throw std::invalid_argument("pose is not finite");
+  // A thousand kilometres, as for points: beyond it single precision tells nothing apart, and sums of poses
+  // overflow.
+  constexpr double kFarthest = 1e6;
+  if (matrix.topRightCorner<3, 1>().cwiseAbs().maxCoeff() > kFarthest) {
+    throw std::invalid_argument("pose is more than 1000 km from the origin");
+  }
   const Eigen::Matrix3d rotation = matrix.topLeftCorner<3, 3>();
   if ((rotation.transpose() * rotation - Eigen::Matrix3d::Identity()).cwiseAbs().maxCoeff() > 1e-6) {
     throw std::invalid_argument("rotation of pose is not orthonormal");
