@@ -2,7 +2,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Mutated logs end to end: `hoctomap build` on changed copies of WORK/a.rawlog, plain and compressed.
 
-usage: mutated_logs.py HOCTOMAP WORK COUNT
+usage: mutated_logs.py HOCTOMAP WORK COUNT SEED
 Fails at the first run that ends by a signal, takes longer than a minute, has an exit code that is not documented,
 or does not say in one line what is wrong.
 """
@@ -42,7 +42,7 @@ def main():
         compressed = log.read()
     # What stands before the first image is most of what a reader can be told wrong things about.
     head = plain.find(b"CObservation3DRangeScan") + 400
-    rng = random.Random(1)
+    rng = random.Random(int(sys.argv[4]))
     codes = collections.Counter()
     for i in range(count):
         if i % 4 == 0:

@@ -6,6 +6,7 @@
 #   scripts/soak.sh logs N       N mutated logs through `hoctomap build`
 #   scripts/soak.sh reader N     N mutated logs through the log reader's fork server
 #   scripts/soak.sh fuzz N       N executions of every fuzzer (preset `fuzz`, FUZZ, default build/fuzz)
+# SEED (default 1) is that of the mutations of `logs` and `reader`.
 set -euo pipefail
 cd "$(dirname "$0")/.."
 build=${BUILD:-build/dev}
@@ -64,7 +65,7 @@ cycles() {
 
 logs() {
   "$hoctomap" simulate -q -c configs/scenes/demo.ini -o "$work/a.rawlog" --set path.sweep.views=2 > /dev/null
-  python3 scripts/mutated_logs.py "$hoctomap" "$work" "$count"
+  python3 scripts/mutated_logs.py "$hoctomap" "$work" "$count" "${SEED:-1}"
 }
 
 reader() {

@@ -4,6 +4,8 @@
 #include <tbb/parallel_pipeline.h>
 
 #include <algorithm>
+#include <atomic>
+#include <exception>
 #include <iterator>
 #include <memory>
 #include <vector>
@@ -46,15 +48,24 @@ void NodeFiles::write(std::span<const MapNode* const> nodes) {
     return !known_.contains({node->id(), node->version});
   });
   std::size_t next = 0;
+  // oneTBB leaks what it has handed to a filter that throws: the error waits until the pipeline is empty.
+  std::exception_ptr failure;
+  std::atomic<bool> failed{false};
   const auto take = [&](tbb::flow_control& flow) {
-    if (next == unknown.size()) flow.stop();
+    if (failed || next == unknown.size()) flow.stop();
     return next++;
   };
   const auto makeOne = [&](std::size_t i) { return std::make_shared<const Made>(make(*unknown[i])); };
-  const auto store = [this](const std::shared_ptr<const Made>& made) {
-    disk_.replace(directory_ / made->contents.ot.path, made->ot);
-    disk_.replace(directory_ / made->contents.bt.path, made->bt);
-    known_.insert_or_assign({made->node->id(), made->node->version}, made->contents);
+  const auto store = [&](const std::shared_ptr<const Made>& made) {
+    if (failed) return;
+    try {
+      disk_.replace(directory_ / made->contents.ot.path, made->ot);
+      disk_.replace(directory_ / made->contents.bt.path, made->bt);
+      known_.insert_or_assign({made->node->id(), made->node->version}, made->contents);
+    } catch (...) {
+      failure = std::current_exception();
+      failed = true;
+    }
   };
   constexpr std::size_t kInMemory = 4;  // nodes whose bytes wait to be written
   using tbb::filter_mode;
@@ -63,6 +74,7 @@ void NodeFiles::write(std::span<const MapNode* const> nodes) {
                          tbb::make_filter<void, std::size_t>(filter_mode::serial_in_order, take) &
                              tbb::make_filter<std::size_t, MadePtr>(filter_mode::parallel, makeOne) &
                              tbb::make_filter<MadePtr, void>(filter_mode::serial_in_order, store));
+  if (failure) std::rethrow_exception(failure);
 }
 
 NodeRecord NodeFiles::record(const MapNode& node, const Pose& world_T_node) const {
