@@ -17,8 +17,8 @@
 #include <fstream>
 #include <functional>
 #include <string>
-#include <vector>
 #include <thread>
+#include <vector>
 
 #include "hoctomap/io/PipeSource.h"
 #include "log_objects.h"

@@ -68,9 +68,9 @@ struct MotionsTaken {
 /// `hierarchy.yaml`: names the files of one consistent map.
 struct Manifest {
   int format_version = kMapFormatVersion;
-  std::string generator;      ///< program and version
-  std::uint64_t scans = 0;    ///< scans of the log taken in, skipped ones included: the index of the next
-  double last_stamp = 0.0;    ///< s since 1970, of the last of them
+  std::string generator;    ///< program and version
+  std::uint64_t scans = 0;  ///< scans of the log taken in, skipped ones included: the index of the next
+  double last_stamp = 0.0;  ///< s since 1970, of the last of them
   std::uint64_t mapped_scans = 0;   ///< of them, those that were of use ...
   std::uint64_t skipped_scans = 0;  ///< ... and those that were not; the rest was not chosen
   std::string config_sha256;        ///< of `config.ini`
@@ -85,8 +85,8 @@ struct Manifest {
   std::optional<FileRecord> scene;
   std::optional<StillSensor> sensor;  ///< of the last scan, for a run that goes on
   std::optional<MotionsTaken> motions;
-  std::vector<NodeRecord> nodes;      ///< parents before children, siblings by id
-  std::vector<NodeRecord> removed;    ///< by id; their files stay in `nodes/`
+  std::vector<NodeRecord> nodes;    ///< parents before children, siblings by id
+  std::vector<NodeRecord> removed;  ///< by id; their files stay in `nodes/`
   std::vector<NodeRecord> waiting;  ///< for confirmation, by id: part of the map only for a run that goes on
   /// Not in the file: nodes of a kept state that entered `nodes` when it was read, as at the end of a log.
   std::vector<NodeId> let_in_at_end;

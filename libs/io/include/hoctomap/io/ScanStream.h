@@ -47,9 +47,9 @@ struct StreamHeader {
     std::uint32_t width = 0;  ///< of the range image; 0 if unorganised
     std::uint32_t height = 0;
   };
-  std::uint64_t total_scans = 0;   ///< all 3D scans of the logs
-  std::uint64_t chosen_scans = 0;  ///< at most this many will come, as scans or as skipped scans
-  std::string pose_source;         ///< for the log of the run
+  std::uint64_t total_scans = 0;        ///< all 3D scans of the logs
+  std::uint64_t chosen_scans = 0;       ///< at most this many will come, as scans or as skipped scans
+  std::string pose_source;              ///< for the log of the run
   std::vector<std::string> log_sha256;  ///< hex, over the bytes of each log, in order; may be empty
   std::vector<Sensor> sensors;
 };
@@ -115,9 +115,10 @@ class ScanStreamWriter {
   std::vector<std::uint8_t> frame_;  ///< reused from message to message
 };
 
-/// Sends an error from a signal handler: async-signal-safe, errors of the write are lost. A ScanStreamWriter of
-/// `fd` must have been made, and none be writing.
-void sendErrorFromSignalHandler(int fd, int exit_code, const char* text, const StreamPosition& position) noexcept;
+/// Sends an error from a signal handler: async-signal-safe, errors of the write are lost. A ScanStreamWriter
+/// of `fd` must have been made, and none be writing.
+void sendErrorFromSignalHandler(int fd, int exit_code, const char* text,
+                                const StreamPosition& position) noexcept;
 
 /// The receiver's end. Does not own the descriptor. Trusts nothing: every length is checked before memory is
 /// taken, every pose and camera before it is handed on.
