@@ -9,7 +9,9 @@
 #include "Command.h"
 #include "ExplorationFiles.h"
 #include "ExplorationPicture.h"
+#include "InputIdentity.h"
 #include "MappingSetup.h"
+#include "MotionLedger.h"
 #include "RecordedRobot.h"
 #include "RunLog.h"
 #include "RunSummary.h"
@@ -74,9 +76,12 @@ Settings settingsOf(const ExploreOptions& options) {
   return settings;
 }
 
-std::string sha256OfFile(const std::filesystem::path& file) {
-  std::ifstream in(file, std::ios::binary);
-  return sha256Hex(std::string{std::istreambuf_iterator<char>(in), {}});
+/// As a `build` of the log alone would remember it.
+std::string inputOf(const std::filesystem::path& log) {
+  std::ifstream in(log, std::ios::binary);
+  LogReadOptions read;
+  read.logs = {log};
+  return InputIdentity(read, {sha256Hex(std::string{std::istreambuf_iterator<char>(in), {}})}).text();
 }
 
 /// One exploration: the robot in the scene, the map that it makes, and all that is written of it.
@@ -135,6 +140,8 @@ class Exploration {
   void take(const Measurement& z, const UpdateReport& report) {
     last_scan_ = z.scan;
     last_stamp_ = z.stamp;
+    (void)motions_.takeDue(z.scan, z.stamp);
+    motions_.finishScan();
     summary_.addUsed(z);
     summary_.addReport(report);
     directory_.append(report);
@@ -170,12 +177,12 @@ class Exploration {
     directory_.commit({mapper_.hierarchy(),
                        mapper_.removed(),
                        last_scan_ ? *last_scan_ + 1 : 0,
-                       sha256OfFile(log_file_),
+                       inputOf(log_file_),
                        false,
                        last_stamp_,
                        &mapper_.seams(),
                        mapper_.sensor(),
-                       {},
+                       motions_.taken(),
                        summary_.mappedInAll()});
     directory_.writeScene(makeScene);
     picture_.draw(mapper_.hierarchy(), path / "exploration.png");
@@ -197,6 +204,7 @@ class Exploration {
   ExplorationTable table_;
   ExplorationPicture picture_;
   RunSummary summary_;
+  MotionLedger motions_{{}, std::nullopt};  // nobody tells of any
   ExplorationResult result_;
   std::optional<std::uint64_t> last_scan_;
   double last_stamp_ = 0.0;

@@ -171,5 +171,12 @@ TEST(Example, AnOwnRelationMakesItsTree) {
   EXPECT_NE(outcome.out.find("\n    object 3"), std::string::npos) << outcome.out;
 }
 
+TEST(Example, AnOwnRobotExploresItsTable) {
+  const auto outcome = test::runProgram(HOCTOMAP_ROBOT_EXAMPLE, {});
+  EXPECT_EQ(outcome.exit_code, 0);
+  EXPECT_NE(outcome.out.find("\nfirst_view\nview\n"), std::string::npos) << outcome.out;
+  EXPECT_NE(outcome.out.find("\ntable 1 explored\n"), std::string::npos) << outcome.out;
+}
+
 }  // namespace
 }  // namespace hoctomap

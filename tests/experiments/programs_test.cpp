@@ -108,6 +108,10 @@ TEST(Experiments, ViCComparesTheWaysToChooseViews) {
   }
   EXPECT_GT(std::stod(trials[0].at("gain_correlation")), 0.7);  // recommended
   EXPECT_EQ(parseCsv(readFile(folder / "out/views.csv")).size(), views);
+  const auto steps = parseCsv(readFile(folder / "out/steps.csv"));
+  ASSERT_GE(steps.size(), 4U);  // of two methods
+  EXPECT_EQ(steps[0].at("kind"), "first_view");
+  EXPECT_LE(std::stod(steps[1].at("chosen_gain")), std::stod(steps[1].at("best_gain")));
   EXPECT_NE(outcome.out.find("| explore_table | circle of 4 |"), std::string::npos) << outcome.out;
   for (const char* plot : {"coverage_views", "coverage_travel"})
     EXPECT_EQ(readFile(folder / (std::string("out/") + plot + ".png")).substr(1, 3), "PNG");

@@ -25,7 +25,7 @@ struct ExplorationConfig {
   TableSpace space;
   UtilityForm utility = UtilityForm::ratio;
   double alpha = 0.5;  ///< weight of the gain, Eq. 13
-  double tau = 0.03;   ///< a table is explored when no gain is more than this share of its first one
+  double tau = 0.04;   ///< a table is explored when no gain is more than this share of its first one
   int first_look = 7;  ///< views around at the start, for the background
   int max_views = 20;  ///< of one table
   double cleared_resolution = 0.01;  ///< m
