@@ -100,8 +100,10 @@ int changes(CommandOptions options) {
     table += summaryRow(toString(static_cast<ScriptKind>(kind)), of_kind);
   }
   table += summaryRow("all", all);
-  const std::string text = table + "\n" + reliabilityMarkdown(reliabilityOf(all.existence));
+  const Reliability reliability = reliabilityOf(all.existence);
+  const std::string text = table + "\n" + reliabilityMarkdown(reliability);
   const std::filesystem::path folder(options.output);
+  drawReliability(reliability, folder);
   writeTextFile(folder / "changes.csv", csv);
   writeTextFile(folder / "motions.csv", motions);
   writeTextFile(folder / "changes.md", text);
@@ -115,7 +117,7 @@ void addChangesCommand(CLI::App& app, Action& action) {
   auto options = std::make_shared<CommandOptions>();
   CLI::App* command = app.add_subcommand(
       "changes", "Section III-D on simulated tables: what comes, goes, moves, and how sure the map is of it");
-  command->add_option("-o,--output", options->output, "folder for CSV and tables")
+  command->add_option("-o,--output", options->output, "folder for CSV, tables and the plot")
       ->type_name("DIR")
       ->required();
   command->add_option("-c,--config", options->config, "configuration")->type_name("INI");

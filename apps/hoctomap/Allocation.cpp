@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Memory comes from mimalloc: trees are many small nodes, which it packs tightly and hands out fast. Its own
-// operator new ends the program where there is no more memory; ours throws, so that the user gets exit code 6.
-// Shared libraries find these, too.
+// operator new ends the program where there is no more memory; ours throws, so that the user gets exit
+// code 6. Shared libraries find these, too.
 #include <mimalloc.h>
 
 #include <new>

@@ -174,16 +174,9 @@ class Exploration {
     const auto held = coverage_.of(mapper_.hierarchy(), voxelOfObjects());
     writeTextFile(path / "exploration.csv", table_.text());
     writeTextFile(path / "coverage.csv", coverageCsv(robot_.scene(), coverage_, held));
-    directory_.commit({mapper_.hierarchy(),
-                       mapper_.removed(),
-                       last_scan_ ? *last_scan_ + 1 : 0,
-                       inputOf(log_file_),
-                       false,
-                       last_stamp_,
-                       &mapper_.seams(),
-                       mapper_.sensor(),
-                       motions_.taken(),
-                       summary_.mappedInAll()});
+    directory_.commit({mapper_.hierarchy(), mapper_.removed(), last_scan_ ? *last_scan_ + 1 : 0,
+                       inputOf(log_file_), false, last_stamp_, &mapper_.seams(), mapper_.sensor(),
+                       motions_.taken(), summary_.mappedInAll()});
     directory_.writeScene(makeScene);
     picture_.draw(mapper_.hierarchy(), path / "exploration.png");
     if (runHelper({"render", path.string(), "-o", (path / "model.png").string(), "--hide",

@@ -6,8 +6,8 @@
 #include "Command.h"
 #include "hoctomap/geometry/Errors.h"
 #include "hoctomap/io/ChildProcess.h"
-#include "hoctomap/io/MapDescription.h"
 #include "hoctomap/io/MapCheck.h"
+#include "hoctomap/io/MapDescription.h"
 #include "hoctomap/io/MapReader.h"
 
 namespace hoctomap {

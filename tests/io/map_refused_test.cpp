@@ -7,8 +7,8 @@
 #include <limits>
 
 #include "hoctomap/geometry/Errors.h"
-#include "hoctomap/io/MapDirectory.h"
 #include "hoctomap/io/MapCheck.h"
+#include "hoctomap/io/MapDirectory.h"
 #include "hoctomap/io/MapReader.h"
 #include "hoctomap/io/OctreeFile.h"
 #include "hoctomap/io/Sha256.h"

@@ -4,8 +4,8 @@
 #include <cstdlib>
 #include <sstream>
 
-#include "hoctomap/io/MapDirectory.h"
 #include "hoctomap/io/MapCheck.h"
+#include "hoctomap/io/MapDirectory.h"
 #include "hoctomap/io/MapReader.h"
 #include "hoctomap/io/OctreeFile.h"
 #include "random_map.h"

@@ -126,6 +126,26 @@ TEST(SeamVotes, WhatDoesNotMeetHasNoSeam) {
   EXPECT_FALSE(seams.meet(SeamVotes::cellsOf(kLeft), SeamVotes::cellsOf(far)));
 }
 
+TEST(SeamVotes, GroundBesideAnObjectVotesForASeamOnly) {
+  const std::vector<const PointCloud*> object{&kLeft};
+  const std::vector<const PointCloud*> ground{&kRight};
+  SeamVotes seams;
+  // The object's cells are shown, the ground's are none of an object.
+  EXPECT_EQ(seams.add(object, ground, kOrigin), SeamVotes::cellsOf(kLeft));
+  const auto of_ground = SeamVotes::cellsOf(kRight);
+  int against = 0;
+  for (const auto& [cell, votes] : seams.all()) {
+    EXPECT_EQ(votes.is_object, SeamVotes::cellsOf(kLeft).contains(cell));
+    for (std::size_t d = 0; d < SeamVotes::kDirections; ++d) {
+      if (!votes.known[d] || of_ground.contains(cell) == of_ground.contains(SeamVotes::partner(cell, d)))
+        continue;
+      EXPECT_GT(votes.evidence[d], 0);
+      ++against;
+    }
+  }
+  EXPECT_GT(against, 20);
+}
+
 TEST(SeamVotes, WhatIsForgottenLeavesNothing) {
   SeamVotes seams;
   const auto cells = seams.add(std::vector<const PointCloud*>{&kLeft, &kRight}, {}, kOrigin);

@@ -179,6 +179,28 @@ TEST_P(TabletopSegmentationTest, MugOnPaperIsAMug) {
   }
 }
 
+TEST_P(TabletopSegmentationTest, TheFootOfAMugOnPaperIsTheMugs) {
+  BoxScene scene;
+  scene.add(0.95, 0.0, 0.72, 0.8, 1.4, 0.03);
+  scene.add(0.95, 0.0, 0.75, 0.3, 0.4, 0.012);
+  const Eigen::AlignedBox3d mug = scene.boxes[scene.add(0.9, 0.05, 0.762, 0.08, 0.08, 0.1)];
+  Rng rng(1);
+  const auto z = scene.look(kEye, kTarget, &rng);
+  Eigen::AlignedBox3d foot = mug;  // the part of it that is no higher than what may be thin
+  foot.min() += Eigen::Vector3d(-0.01, -0.01, 0.008);
+  foot.max() += Eigen::Vector3d(0.01, 0.01, -0.075);
+  std::size_t of_mug = 0;
+  std::size_t of_others = 0;
+  for (const auto& o : ofKind(segment(z), Structure::cluster)) {
+    const bool is_mug = pointsIn(z, o, mug) == o.points.size();
+    for (const auto i : o.points) {
+      if (foot.contains(z.world_points[i].cast<double>())) ++(is_mug ? of_mug : of_others);
+    }
+  }
+  EXPECT_GT(of_mug, 50U);
+  EXPECT_LT(10 * of_others, of_mug);
+}
+
 TEST_P(TabletopSegmentationTest, ObjectCutByTheImageIsAnObject) {
   BoxScene scene;
   scene.add(0.95, 0.0, 0.72, 0.8, 3.0, 0.03);

@@ -3,6 +3,8 @@
 
 #include <algorithm>
 
+#include "hoctomap/io/CsvText.h"
+#include "measuring/DrawPlot.h"
 #include "measuring/Figures.h"
 
 namespace hoctomap {
@@ -43,6 +45,26 @@ std::string reliabilityMarkdown(const Reliability& reliability) {
   }
   return table + "\nBrier score " + text(reliability.brier) +
          " (always the mean: " + text(reliability.brier_constant) + ")\n";
+}
+
+void drawReliability(const Reliability& reliability, const std::filesystem::path& folder) {
+  std::string data = "$BINS << EOD\n";
+  for (const auto& bin : reliability.bins) {
+    if (bin.count == 0) continue;
+    data += numberText(bin.mean_probability) + " " + numberText(bin.share_existing) + " " +
+            std::to_string(bin.count) + "\n";
+  }
+  const std::filesystem::path script = folder / "reliability.gnuplot";
+  writeTextFile(script, "set terminal pngcairo font 'sans,10' size 460,400\nset output '" +
+                            (folder / "reliability.png").string() + "'\n" + data +
+                            "EOD\nset key off\nset size square\nset grid lt 1 lc rgb '#d8d8d8'\n"
+                            "set xlabel 'probability of existence, mean of the entries'\n"
+                            "set ylabel 'share of the entries whose object is there'\n"
+                            "set xrange [0:1.05]\nset yrange [-0.05:1.1]\n"
+                            "plot x with lines lc rgb '#a0a0a0', \\\n"
+                            "  $BINS using 1:2 with points pt 7 ps 1.5 lc rgb '#0072b2', \\\n"
+                            "  $BINS using 1:2:3 with labels offset -0.5,1.2 right\nset output\n");
+  drawPlot(script);
 }
 
 }  // namespace hoctomap

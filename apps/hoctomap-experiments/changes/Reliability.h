@@ -2,6 +2,7 @@
 #pragma once
 
 #include <array>
+#include <filesystem>
 #include <span>
 #include <string>
 
@@ -25,5 +26,10 @@ struct Reliability {
 
 /// Markdown table of the bins.
 [[nodiscard]] std::string reliabilityMarkdown(const Reliability& reliability);
+
+/// Draws `reliability.png`: the share that exists over the mean probability of each bin, beside the number of
+/// entries.
+/// @throws FileError if gnuplot is not installed or fails
+void drawReliability(const Reliability& reliability, const std::filesystem::path& folder);
 
 }  // namespace hoctomap

@@ -124,6 +124,8 @@ Figures measureBoxes(const Task& task) {
   Task adapted = task;
   adapted.overrides.push_back("label.object.resolution=" + numberText(task.resolution));
   adapted.overrides.emplace_back("label.object.grazing=clear");  // all that stock OctoMap knows
+  // A node that is split or merged gets its tree in another way than by updates, and is not told from others.
+  adapted.overrides.emplace_back("mapping.seam_votes=false");
   const Settings settings = loadSettings(adapted.config, adapted.overrides);
   const auto engine = boxEngine(task, settings);
   const BeamRecord record = recordObjects(task, settings, readScans(task.scans));

@@ -4,9 +4,8 @@
 #include <algorithm>
 #include <utility>
 
-#include "hoctomap/geometry/Errors.h"
-#include "hoctomap/io/ChildProcess.h"
 #include "hoctomap/io/CsvText.h"
+#include "measuring/DrawPlot.h"
 
 namespace hoctomap {
 
@@ -105,17 +104,6 @@ std::string legend(Quantity quantity, double width) {
   return text;
 }
 
-void run(const std::filesystem::path& script) {
-  ChildProcess child({.program = "/usr/bin/gnuplot",
-                      .arguments = {script.string()},
-                      .output = ChildProcess::Stream::null,
-                      .own_group = false});
-  const ExitStatus status = child.wait();
-  if (status.code != 0 || status.signal != 0) {
-    throw FileError(script.string() + ": gnuplot (Debian's gnuplot-nox) could not draw it");
-  }
-}
-
 }  // namespace
 
 std::string plotCommands(const ViAResults& results, Quantity quantity) {
@@ -152,7 +140,7 @@ void drawPlots(const ViAResults& results, const std::filesystem::path& folder) {
                       size + "\nset output '" + to(".svg") + "'\n" + commands +
                       "set output\nset terminal pngcairo font 'sans,10'" + size + "\nset output '" +
                       to(".png") + "'\n" + commands + "set output\n");
-    run(to(".gnuplot"));
+    drawPlot(to(".gnuplot"));
   }
 }
 

@@ -7,8 +7,8 @@
 #include <sstream>
 
 #include "hoctomap/geometry/Errors.h"
-#include "hoctomap/io/ChildProcess.h"
 #include "hoctomap/io/CsvText.h"
+#include "measuring/DrawPlot.h"
 #include "measuring/Figures.h"
 #include "vi_c/Statistics.h"
 
@@ -283,13 +283,7 @@ void drawViC(const std::vector<Trial>& trials, const std::filesystem::path& fold
     const std::string script = base.string() + ".gnuplot";
     writeTextFile(script, "set terminal pngcairo font 'sans,10' size " + width + ",400\nset output '" +
                               base.string() + ".png'\n" + plotCommands(trials, by_travel) + "set output\n");
-    ChildProcess child({.program = "/usr/bin/gnuplot",
-                        .arguments = {script},
-                        .output = ChildProcess::Stream::null,
-                        .own_group = false});
-    const ExitStatus status = child.wait();
-    if (status.code != 0 || status.signal != 0)
-      throw FileError(script + ": gnuplot (Debian's gnuplot-nox) could not draw it");
+    drawPlot(script);
   }
 }
 

@@ -10,7 +10,7 @@ namespace {
 
 constexpr double kTrimmed = 0.85;  // share of the pairs that is believed
 constexpr std::size_t kLeastPairs = 6;
-constexpr float kBeyond = 0.01F;    // m beyond an edge, where nothing of the object must be
+constexpr float kBeyond = 0.01F;  // m beyond an edge, where nothing of the object must be
 constexpr float kOneSide = RegistrationSurface::kOneSide;
 constexpr float kOverEdge = 0.75F;  // spacings beyond an edge: less is chance
 
@@ -140,7 +140,8 @@ float ClosestPoints::meanDistance(const Eigen::Isometry3f& motion, float radius,
   return sum / static_cast<float>(std::max<std::size_t>(1, asked));
 }
 
-std::optional<SurfacePoints::Neighbour> ClosestPoints::modelFor(std::size_t seen, const Eigen::Isometry3f& back,
+std::optional<SurfacePoints::Neighbour> ClosestPoints::modelFor(std::size_t seen,
+                                                                const Eigen::Isometry3f& back,
                                                                 float radius) const {
   const Eigen::Vector3f at = back * seen_.points()[seen];
   if (seen_ends_[seen] == 0) return model_.nearest(at, radius);

@@ -53,9 +53,10 @@ class ClosestPoints {
   using Pairs = std::vector<Pair>;
 
   static bool trim(Pairs& pairs);
-  /// The nearest point of the other surface. An end of a side is compared with that side: where a side goes on
-  /// beyond it, the nearest point is of the side that meets it there.
-  [[nodiscard]] std::optional<SurfacePoints::Neighbour> modelFor(std::size_t seen, const Eigen::Isometry3f& back,
+  /// The nearest point of the other surface. An end of a side is compared with that side: where a side goes
+  /// on beyond it, the nearest point is of the side that meets it there.
+  [[nodiscard]] std::optional<SurfacePoints::Neighbour> modelFor(std::size_t seen,
+                                                                 const Eigen::Isometry3f& back,
                                                                  float radius) const;
   [[nodiscard]] std::optional<SurfacePoints::Neighbour> seenFor(std::size_t model,
                                                                 const Eigen::Isometry3f& motion,

@@ -54,8 +54,8 @@ class Registrar {
       rest.verdict = Match::different;
       return rest;
     }
-    // A few points tell what is nearly square by chance: of a thing that fits, all turns are followed to their
-    // end before one is chosen.
+    // A few points tell what is nearly square by chance: of a thing that fits, all turns are followed to
+    // their end before one is chosen.
     const Registration first = *std::max_element(candidates.begin(), candidates.end(), fitsWorse);
     const double margin = first.verdict == Match::same ? 2.0 * config_.rival_score : 0.0;
     forEachIndex(candidates.size(), [&](std::size_t k) {

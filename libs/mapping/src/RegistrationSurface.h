@@ -54,8 +54,8 @@ class RegistrationSurface {
   [[nodiscard]] std::optional<SurfacePoints::Neighbour> nearestOnSide(const Eigen::Vector3f& p,
                                                                       const Eigen::Vector3f& normal,
                                                                       float radius) const {
-    return surface_.nearestOf(
-        p, radius, [&](std::size_t i) { return std::abs(normal.dot(normals_[i])) >= kOneSide; });
+    return surface_.nearestOf(p, radius,
+                              [&](std::size_t i) { return std::abs(normal.dot(normals_[i])) >= kOneSide; });
   }
   static constexpr float kOneSide = 0.7F;  ///< cosine between normals of one side of an object
 

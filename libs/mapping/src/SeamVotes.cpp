@@ -86,7 +86,8 @@ Eigen::Vector3d cornerOf(const Cell& cell) {
 constexpr std::size_t kGround = std::numeric_limits<std::size_t>::max();  // owner of what is no segment's
 
 /// Of ground that lies near a segment: its cells in which no segment has a point.
-void addGround(std::span<const PointCloud* const> ground, std::unordered_map<std::uint64_t, SeenCell>& by_key) {
+void addGround(std::span<const PointCloud* const> ground,
+               std::unordered_map<std::uint64_t, SeenCell>& by_key) {
   std::unordered_set<std::uint64_t> near;  // cells of pairs with a segment's
   Eigen::AlignedBox3f around;              // of these, m
   for (const auto& [key, seen] : by_key) {

@@ -203,15 +203,15 @@ class Merging {
   }
 
   /// Whether a piece is covered by a thing: the base below an overhanging lid, whose seam is never seen. Or
-  /// held from the side: it does not reach down as far, nor lies on top, and hardly meets anything else that it
-  /// could rest on. A handle, that is: what is not held falls.
+  /// held from the side: it does not reach down as far, nor lies on top, and hardly meets anything else that
+  /// it could rest on. A handle, that is: what is not held falls.
   [[nodiscard]] bool isPart(Index whole, Index piece) const {
     return isHeldBy(whole, piece) || isCoveredBy(whole, piece);
   }
 
   [[nodiscard]] bool isHeldBy(Index whole, Index piece) const {
     constexpr std::int32_t kOffGround = 1;  // cells
-    constexpr int kLeastOfBorder = 3;        // times what it meets beside the whole
+    constexpr int kLeastOfBorder = 3;       // times what it meets beside the whole
     int elsewhere = 0;
     for (const auto& [other, border] : borders_[piece]) elsewhere += other == whole ? 0 : border.pairs;
     if (borders_[piece].at(whole).pairs < kLeastOfBorder * elsewhere) return false;

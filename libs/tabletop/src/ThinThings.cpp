@@ -36,9 +36,9 @@ constexpr float kNothing = std::numeric_limits<float>::quiet_NaN();
 struct RisePicture {
   int width = 0;
   int height = 0;
-  std::vector<float> rise;          ///< m above the table; NaN: not near it
-  std::vector<float> least;         ///< m, the rise that is evidence there
-  std::vector<std::uint8_t> thick;  ///< something that rises for certain
+  std::vector<float> rise;             ///< m above the table; NaN: not near it
+  std::vector<float> least;            ///< m, the rise that is evidence there
+  std::vector<std::uint8_t> thick;     ///< something that rises for certain
   std::vector<Eigen::Vector2f> place;  ///< m, seen from above
   std::vector<float> upright;          ///< m: what is upright may be as far off, seen from above
 };

@@ -12,8 +12,8 @@ namespace hoctomap {
 /// cleared by their own beams only (`carve = own`): the corners of their boxes would stay unknown for ever.
 /// The nodes' maps stay untouched.
 ///
-/// What is measured worse than it is kept (sigma above the resolution) clears the way up to three sigma before
-/// its end and marks nothing: a surface that was seen from afar is still to be looked at.
+/// What is measured worse than it is kept (sigma above the resolution) clears the way up to three sigma
+/// before its end and marks nothing: a surface that was seen from afar is still to be looked at.
 class ClearedSpace {
  public:
   /// @param resolution m. @param noise of the ranges.

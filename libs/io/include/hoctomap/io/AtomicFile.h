@@ -6,7 +6,8 @@
 
 namespace hoctomap {
 
-/// Puts a file of these bytes in place of `file`, all or nothing: written beside it, checked, synced, renamed.
+/// Puts a file of these bytes in place of `file`, all or nothing: written beside it, checked, synced,
+/// renamed.
 /// @throws FileError
 void replaceFile(const std::filesystem::path& file, std::string_view bytes);
 

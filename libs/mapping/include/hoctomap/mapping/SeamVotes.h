@@ -57,7 +57,7 @@ class SeamVotes {
 
   /// Of one cell: what speaks for a seam between it and the cell in each direction; negative: for none.
   struct Votes {
-    bool is_object = false;  ///< some scan has shown an object here
+    bool is_object = false;          ///< some scan has shown an object here
     std::bitset<kDirections> known;  ///< some scan has shown both
     std::array<std::int16_t, kDirections> evidence{};
     bool operator==(const Votes&) const = default;
