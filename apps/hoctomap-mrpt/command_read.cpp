@@ -5,6 +5,7 @@
 
 #include "Confinement.h"
 #include "ProcessGuards.h"
+#include "StreamLog.h"
 #include "Verb.h"
 #include "hoctomap/geometry/Errors.h"
 #include "hoctomap/mrpt_io/LogReader.h"
@@ -19,27 +20,9 @@ int read(const LogReadOptions& options) {
   dieWithParent();
   limitProcess(options);
   setAllocationCeiling(kLargestArray);
-  ReadProgress progress;
   const int stream = takeOverOutput();
   confine();
-  try {
-    ScanStreamWriter writer(stream);
-    reportCrashes(stream, options.logs, progress);
-    try {
-      LogReader reader(options, progress);
-      reader.stream(
-          [&](const StreamMessage& message, const StreamPosition& at) { writer.write(message, at); });
-      return 0;
-    } catch (const std::bad_alloc&) {
-      writer.write(StreamError{6, "not enough memory to read the log"}, progress.get());
-      return 6;
-    } catch (const std::exception& error) {
-      writer.write(StreamError{exitCodeOf(error), error.what()}, progress.get());
-      return exitCodeOf(error);
-    }
-  } catch (const FileError&) {
-    return 5;  // nobody reads any more
-  }
+  return streamLog(options, stream);
 }
 
 }  // namespace

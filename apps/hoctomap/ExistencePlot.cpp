@@ -3,10 +3,10 @@
 
 #include <algorithm>
 
-#include "Gnuplot.h"
 #include "TextTable.h"
 #include "hoctomap/geometry/Errors.h"
 #include "hoctomap/io/AtomicFile.h"
+#include "hoctomap/io/Gnuplot.h"
 
 namespace hoctomap {
 

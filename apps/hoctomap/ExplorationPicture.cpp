@@ -3,9 +3,9 @@
 
 #include <cmath>
 
-#include "Gnuplot.h"
 #include "TextTable.h"
 #include "hoctomap/io/AtomicFile.h"
+#include "hoctomap/io/Gnuplot.h"
 
 namespace hoctomap {
 

@@ -38,8 +38,6 @@ Outcome build(const std::string& log, const std::string& map, const std::vector<
   return outcome;
 }
 
-namespace {
-
 std::vector<Measurement> scansOf(const std::string& log) {
   setenv("HOCTOMAP_MRPT", HOCTOMAP_HELPER, 1);
   LogReadOptions options;
@@ -51,8 +49,6 @@ std::vector<Measurement> scansOf(const std::string& log) {
   }
   return scans;
 }
-
-}  // namespace
 
 void addPoseNoise(const std::string& log, const std::string& noisy, double shift, double turn,
                   std::uint64_t seed) {
@@ -98,15 +94,41 @@ void copyLog(const std::string& log, const std::string& copy, const ObjectMotion
   writer.finish();
 }
 
+namespace {
+
+std::array<int, 3> cellOf(const Eigen::Vector3f& p) {
+  constexpr float kCell = 0.02F;  // m
+  const Eigen::Array3i cell = (p / kCell).array().floor().cast<int>();
+  return {cell[0], cell[1], cell[2]};
+}
+
+}  // namespace
+
+ShownPlaces::ShownPlaces(const PointCloud& world_points) {
+  for (const auto& p : world_points) cells_.insert(cellOf(p));
+}
+
+bool ShownPlaces::isNear(const Eigen::Vector3f& world_point) const {
+  const auto cell = cellOf(world_point);
+  for (int n = 0; n < 27; ++n) {
+    if (cells_.contains({cell[0] + n / 9 - 1, cell[1] + n / 3 % 3 - 1, cell[2] + n % 3 - 1})) return true;
+  }
+  return false;
+}
+
 std::vector<MappedNode> nodesOf(const std::string& map, const std::string& label) {
   const StoredMap stored = readMap(map);
   std::vector<MappedNode> nodes;
   for (const NodeRecord& record : stored.manifest.nodes) {
     if (record.label.name != label) continue;
     Eigen::Vector3d sum = Eigen::Vector3d::Zero();
-    const PointCloud& voxels = stored.hierarchy.node(record.id).map().occupiedVoxels();
-    for (const auto& voxel : voxels) sum += voxel.cast<double>();
-    nodes.push_back({record, toIsometry(record.world_T_node) * (sum / static_cast<double>(voxels.size()))});
+    PointCloud voxels = stored.hierarchy.node(record.id).map().occupiedVoxels();
+    for (auto& voxel : voxels) {
+      voxel = (toIsometry(record.world_T_node) * voxel.cast<double>()).cast<float>();
+      sum += voxel.cast<double>();
+    }
+    const Eigen::Vector3d centroid = sum / static_cast<double>(voxels.size());
+    nodes.push_back({record, centroid, std::move(voxels)});
   }
   return nodes;
 }

@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <filesystem>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -23,6 +25,9 @@ void simulate(const std::string& scene_name, const std::string& log,
 Outcome build(const std::string& log, const std::string& map, const std::vector<std::string>& more = {},
               int expected = 0);
 
+/// The depth scans of a log, with their points in the world.
+std::vector<Measurement> scansOf(const std::string& log);
+
 /// Writes the depth scans of a log in reverse order, at the times of the original.
 void reverseLog(const std::string& log, const std::string& reversed);
 
@@ -38,6 +43,18 @@ void addPoseNoise(const std::string& log, const std::string& noisy, double shift
 struct MappedNode {
   NodeRecord record;
   Eigen::Vector3d centroid;  ///< of the occupied voxels, in the world
+  PointCloud world_voxels;   ///< centres of the occupied ones
+};
+
+/// Where a scan shows a surface.
+class ShownPlaces {
+ public:
+  explicit ShownPlaces(const PointCloud& world_points);
+  /// Whether there is a point within two to four centimetres.
+  [[nodiscard]] bool isNear(const Eigen::Vector3f& world_point) const;
+
+ private:
+  std::set<std::array<int, 3>> cells_;  ///< of 2 cm
 };
 
 /// The nodes of a map with this label.

@@ -67,6 +67,12 @@ class NameChanges {
   int left_ = 0;
 };
 
+/// Until the build has committed for the first time, or ended.
+void waitForCommit(RunningBuild& run, const std::string& map) {
+  NameChanges changes(map);
+  while (!std::filesystem::exists(map + "/hierarchy.yaml") && !run.ended()) changes.next(5);
+}
+
 class Kills : public ::testing::Test {
  protected:
   Kills() {
@@ -135,8 +141,7 @@ TEST_F(Kills, ASignalCommitsAndSaysSo) {
     std::filesystem::create_directory(map);
     {
       RunningBuild run(log, map);
-      NameChanges changes(map);
-      while (!std::filesystem::exists(map + "/hierarchy.yaml") && !run.ended()) changes.next(5);
+      waitForCommit(run, map);
       run.signal(signal);
       const ExitStatus status = run.wait();
       ASSERT_EQ(status.signal, 0);
@@ -154,8 +159,7 @@ TEST_F(Kills, ASecondSignalEndsItAtOnceAndSafely) {
   std::filesystem::create_directory(map);
   {
     RunningBuild run(log, map);
-    NameChanges changes(map);
-    while (!std::filesystem::exists(map + "/hierarchy.yaml") && !run.ended()) changes.next(5);
+    waitForCommit(run, map);
     run.signal(SIGINT);
     run.signal(SIGTERM);  // another one, too
     const ExitStatus status = run.wait();

@@ -26,6 +26,7 @@
 #include "Confinement.h"
 #include "Mutation.h"
 #include "ProcessGuards.h"
+#include "StreamLog.h"
 #include "hoctomap/geometry/Errors.h"
 #include "hoctomap/io/ChildProcess.h"
 #include "hoctomap/mrpt_io/LogReader.h"
@@ -53,26 +54,7 @@ std::vector<std::string> seedLogs() {
   ::setrlimit(RLIMIT_CPU, &seconds);
   setAllocationCeiling(kLargestArray);
   confine();
-  ReadProgress progress;
-  int code = 5;
-  try {
-    ScanStreamWriter writer(pipe);
-    reportCrashes(pipe, options.logs, progress);
-    try {
-      LogReader reader(options, progress);
-      reader.stream(
-          [&](const StreamMessage& message, const StreamPosition& at) { writer.write(message, at); });
-      code = 0;
-    } catch (const std::bad_alloc&) {
-      code = 6;
-      writer.write(StreamError{code, "not enough memory to read the log"}, progress.get());
-    } catch (const std::exception& error) {
-      code = exitCodeOf(error);
-      writer.write(StreamError{code, error.what()}, progress.get());
-    }
-  } catch (const FileError&) {
-  }
-  ::_exit(code);
+  ::_exit(streamLog(options, pipe));
 }
 
 /// What `hoctomap` makes of the stream: its exit code.

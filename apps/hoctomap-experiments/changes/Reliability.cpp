@@ -3,7 +3,6 @@
 
 #include <algorithm>
 
-#include "hoctomap/io/CsvText.h"
 #include "measuring/DrawPlot.h"
 #include "measuring/Figures.h"
 
@@ -54,17 +53,15 @@ void drawReliability(const Reliability& reliability, const std::filesystem::path
     data += numberText(bin.mean_probability) + " " + numberText(bin.share_existing) + " " +
             std::to_string(bin.count) + "\n";
   }
-  const std::filesystem::path script = folder / "reliability.gnuplot";
-  writeTextFile(script, "set terminal pngcairo font 'sans,10' size 460,400\nset output '" +
-                            (folder / "reliability.png").string() + "'\n" + data +
-                            "EOD\nset key off\nset size square\nset grid lt 1 lc rgb '#d8d8d8'\n"
-                            "set xlabel 'probability of existence, mean of the entries'\n"
-                            "set ylabel 'share of the entries whose object is there'\n"
-                            "set xrange [0:1.05]\nset yrange [-0.05:1.1]\n"
-                            "plot x with lines lc rgb '#a0a0a0', \\\n"
-                            "  $BINS using 1:2 with points pt 7 ps 1.5 lc rgb '#0072b2', \\\n"
-                            "  $BINS using 1:2:3 with labels offset -0.5,1.2 right\nset output\n");
-  drawPlot(script);
+  drawPlot(folder / "reliability.png",
+           "set terminal pngcairo font 'sans,10' size 460,400\n" + data +
+               "EOD\nset key off\nset size square\nset grid lt 1 lc rgb '#d8d8d8'\n"
+               "set xlabel 'probability of existence, mean of the entries'\n"
+               "set ylabel 'share of the entries whose object is there'\n"
+               "set xrange [0:1.05]\nset yrange [-0.05:1.1]\n"
+               "plot x with lines lc rgb '#a0a0a0', \\\n"
+               "  $BINS using 1:2 with points pt 7 ps 1.5 lc rgb '#0072b2', \\\n"
+               "  $BINS using 1:2:3 with labels offset -0.5,1.2 right\n");
 }
 
 }  // namespace hoctomap

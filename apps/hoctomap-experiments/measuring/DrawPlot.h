@@ -2,11 +2,13 @@
 #pragma once
 
 #include <filesystem>
+#include <string>
 
 namespace hoctomap {
 
-/// Runs gnuplot on a script, which stays beside the picture that it draws.
+/// Draws a picture with gnuplot, and leaves the script beside it (extension .gnuplot).
+/// @param script  without an output of its own
 /// @throws FileError if gnuplot is not installed or fails
-void drawPlot(const std::filesystem::path& script);
+void drawPlot(const std::filesystem::path& picture, const std::string& script);
 
 }  // namespace hoctomap

@@ -130,17 +130,12 @@ std::string plotCommands(const ViAResults& results, Quantity quantity) {
 void drawPlots(const ViAResults& results, const std::filesystem::path& folder) {
   for (const auto& [name, quantity] :
        {std::pair{"fig4_memory", Quantity::memory}, std::pair{"fig5_runtime", Quantity::runtime}}) {
-    const std::filesystem::path base = folder / name;
-    const std::string commands = plotCommands(results, quantity);
-    const std::string size = " size " + numberText(widthOf(results)) + ",400";
-    const auto to = [&base](const char* extension) { return base.string() + extension; };
-    writeTextFile(to(".gnuplot"),
-                  "# Open symbols and ~: predicted, see docs/reproduction.md\n"
-                  "set terminal svg background '#ffffff' font 'sans,13'" +
-                      size + "\nset output '" + to(".svg") + "'\n" + commands +
-                      "set output\nset terminal pngcairo font 'sans,10'" + size + "\nset output '" +
-                      to(".png") + "'\n" + commands + "set output\n");
-    drawPlot(to(".gnuplot"));
+    const std::string rest =
+        " size " + numberText(widthOf(results)) + ",400\n" + plotCommands(results, quantity);
+    const std::string what = "# Open symbols and ~: predicted, see docs/reproduction.md\nset terminal ";
+    const std::string base = (folder / name).string();
+    drawPlot(base + ".svg", what + "svg background '#ffffff' font 'sans,13'" + rest);
+    drawPlot(base + ".png", what + "pngcairo font 'sans,10'" + rest);
   }
 }
 

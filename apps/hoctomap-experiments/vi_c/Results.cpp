@@ -279,11 +279,9 @@ void drawViC(const std::vector<Trial>& trials, const std::filesystem::path& fold
   const std::string width =
       numberText(340.0 * static_cast<double>(std::max<std::size_t>(1, scenesOf(trials).size())));
   for (const bool by_travel : {false, true}) {
-    const std::filesystem::path base = folder / (by_travel ? "coverage_travel" : "coverage_views");
-    const std::string script = base.string() + ".gnuplot";
-    writeTextFile(script, "set terminal pngcairo font 'sans,10' size " + width + ",400\nset output '" +
-                              base.string() + ".png'\n" + plotCommands(trials, by_travel) + "set output\n");
-    drawPlot(script);
+    drawPlot(
+        folder / (by_travel ? "coverage_travel.png" : "coverage_views.png"),
+        "set terminal pngcairo font 'sans,10' size " + width + ",400\n" + plotCommands(trials, by_travel));
   }
 }
 

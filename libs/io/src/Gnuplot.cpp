@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "Gnuplot.h"
+#include "hoctomap/io/Gnuplot.h"
 
 #include <unistd.h>
 
