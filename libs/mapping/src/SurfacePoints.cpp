@@ -37,17 +37,7 @@ SurfacePoints::SurfacePoints(std::span<const Eigen::Vector3f> points, float spac
 }
 
 std::optional<SurfacePoints::Neighbour> SurfacePoints::nearest(const Eigen::Vector3f& p, float radius) const {
-  if (points_.empty()) return std::nullopt;
-  std::size_t index = 0;
-  float squared_distance = 0.0F;
-  nanoflann::KNNResultSet<float> result(1);
-  result.init(&index, &squared_distance);
-  // Nothing beyond the radius is looked at.
-  squared_distance = radius * radius;
-  index = points_.size();
-  tree_->findNeighbors(result, p.data(), nanoflann::SearchParams());
-  if (index == points_.size() || squared_distance > radius * radius) return std::nullopt;
-  return Neighbour{index, squared_distance};
+  return nearestOf(p, radius, [](std::size_t) { return true; });
 }
 
 float SurfacePoints::distanceToNeighbour(const Eigen::Vector3f& p, std::size_t n) const {
