@@ -4,7 +4,9 @@
 #include <gtest/gtest.h>
 
 #include <limits>
+#include <random>
 
+#include "block_scenes.h"
 #include "support/RandomScenes.h"
 
 namespace hoctomap {
@@ -111,6 +113,49 @@ TEST(NodeMap, GiveHandsOverWhatIsOccupiedAndKeepsTheRest) {
   EXPECT_FLOAT_EQ(other.tree().search(0.05, 0.95, 0.05)->getLogOdds(), hit);
   EXPECT_EQ(other.countVoxels().free, 0U);
   EXPECT_LT(map.occupiedBox().max().y(), 0.5);
+}
+
+TEST(NodeMap, GiveLeavesTheTreeThatStockOctomapWouldMakeOfTheRest) {
+  std::mt19937 random(5);
+  std::uniform_real_distribution<float> coordinate(-0.4F, 0.4F);
+  for (int round = 0; round < 8; ++round) {
+    PointCloud points;
+    for (int i = 0; i < 400; ++i)
+      points.emplace_back(coordinate(random), coordinate(random), coordinate(random));
+    for (float x = 0.01F; x < 0.32F; x += 0.02F) {  // whole cubes, which are pruned once they are saturated
+      for (float y = 0.01F; y < 0.32F; y += 0.02F) {
+        for (float z = 0.01F; z < 0.32F; z += 0.02F) points.emplace_back(x, y, z);
+      }
+    }
+    NodeMap map = mapOf(points, 0.02);
+    octomap::OcTree expanded(map.tree());
+    for (int i = 0; i < 6; ++i) {
+      for (const auto& p : points) expanded.updateNode(p.x(), p.y(), p.z(), true);
+    }
+    expanded.prune();
+    map = NodeMap(std::make_unique<octomap::OcTree>(expanded), {});
+    const float limit = round == 0 ? -1.0F : coordinate(random);  // the first gives all
+    const auto which = [limit](const Eigen::Vector3f& p) { return p.x() + 0.5F * p.y() > limit; };
+
+    octomap::OcTree rest(0.02);
+    std::size_t given = 0;
+    expanded.expand();
+    for (auto leaf = expanded.begin_leafs(); leaf != expanded.end_leafs(); ++leaf) {
+      const Eigen::Vector3f p = Eigen::Vector3d(leaf.getX(), leaf.getY(), leaf.getZ()).cast<float>();
+      if (expanded.isNodeOccupied(*leaf) && which(p)) {
+        ++given;
+      } else {
+        rest.setNodeValue(leaf.getKey(), leaf->getLogOdds(), true);
+      }
+    }
+    rest.updateInnerOccupancy();
+    rest.prune();
+    NodeMap other(0.02, {});
+    map.give(other, Eigen::Isometry3d::Identity(), which);
+    EXPECT_EQ(other.countVoxels().occupied, given);
+    EXPECT_EQ(map.tree().size(), rest.size());
+    EXPECT_EQ(test::otBytes(map.tree()), test::otBytes(rest));
+  }
 }
 
 TEST(NodeMap, TheBoxForgetsAnOutlierThatIsCleared) {

@@ -187,8 +187,11 @@ class Finder {
     std::vector<Registration> result(trials.size());
     forEachIndex(trials.size(), [&](std::size_t k) {
       const auto& [n, s] = trials[k];
-      result[k] = registerSurfaces(*models[n], *seen[s], configFor(doubtful[n], *segments[s].world_points),
-                                   sights[n]);
+      const DoubtfulNode& node = doubtful[n];
+      LeastScore least_score;
+      if (segments[s].node) least_score = [&](double rest_score) { return leastInPlace(node, rest_score); };
+      result[k] = registerSurfaces(*models[n], *seen[s], configFor(node, *segments[s].world_points), sights[n],
+                                   least_score);
     });
     return result;
   }
@@ -225,11 +228,16 @@ class Finder {
     if (!segment.node) return true;
     // Within its place it still stands on what it stood on.
     if (std::abs(up) > config_.registration.near * static_cast<double>(asked)) return false;
+    return r.score >= leastInPlace(node, r.rest_score);
+  }
+
+  /// The score that a motion within the node's own box needs.
+  [[nodiscard]] double leastInPlace(const DoubtfulNode& node, double rest_score) const {
     constexpr double kMisfitLeft = 1.0 / 3.0;
+    const double gain = rest_score + config_.least_gain;
+    if (node.contradicted) return gain;
     // Where most beams still end on the node, its views may just differ.
-    return r.score >= r.rest_score + config_.least_gain &&
-           (node.contradicted || r.score >= config_.least_in_place ||
-            1.0 - r.score <= kMisfitLeft * (1.0 - r.rest_score));
+    return std::max(gain, std::min(config_.least_in_place, 1.0 - kMisfitLeft * (1.0 - rest_score)));
   }
 
   static bool isBest(const Fit& fit, const std::vector<Fit>& fits) {

@@ -28,8 +28,9 @@ constexpr double kOtherTurn = 0.17;  // rad; nearer turns are one fit
 class Registrar {
  public:
   Registrar(const RegistrationSurface& model, const RegistrationSurface& seen,
-            const RegistrationConfig& config, const RegistrationSight& sight)
+            const RegistrationConfig& config, const RegistrationSight& sight, const LeastScore& least_score)
       : config_(config),
+        least_score_(least_score),
         model_(model),
         seen_(seen),
         points_(model, seen, sight),
@@ -57,6 +58,11 @@ class Registrar {
     // A few points tell what is nearly square by chance: of a thing that fits, all turns are followed to
     // their end before one is chosen.
     const Registration first = *std::max_element(candidates.begin(), candidates.end(), fitsWorse);
+    constexpr double kFollowed = 0.03;  // more has not been seen to come of it
+    if (least_score_ && first.score + kFollowed < least_score_(rest.score)) {
+      rest.verdict = Match::different;
+      return rest;
+    }
     const double margin = first.verdict == Match::same ? 2.0 * config_.rival_score : 0.0;
     forEachIndex(candidates.size(), [&](std::size_t k) {
       Registration& c = candidates[k];
@@ -160,6 +166,7 @@ class Registrar {
   }
 
   const RegistrationConfig& config_;
+  const LeastScore& least_score_;
   const RegistrationSurface& model_;
   const RegistrationSurface& seen_;
   ClosestPoints points_;
@@ -169,8 +176,9 @@ class Registrar {
 }  // namespace
 
 Registration registerSurfaces(const RegistrationSurface& model, const RegistrationSurface& seen,
-                              const RegistrationConfig& config, const RegistrationSight& sight) {
-  return Registrar(model, seen, config, sight).best();
+                              const RegistrationConfig& config, const RegistrationSight& sight,
+                              const LeastScore& least_score) {
+  return Registrar(model, seen, config, sight, least_score).best();
 }
 
 void orientModel(RegistrationSurface& model, const RegistrationSight& sight) {

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <functional>
+
 #include "ClosestPoints.h"
 
 namespace hoctomap {
@@ -10,8 +12,13 @@ namespace hoctomap {
 void orientModel(RegistrationSurface& model, const RegistrationSight& sight);
 void orientSeen(RegistrationSurface& seen, const RegistrationSight& sight);
 
-/// `registerPoints` for surfaces that are registered several times.
+/// The score that a motion must reach to be of use, given that without any.
+using LeastScore = std::function<double(double rest_score)>;
+
+/// `registerPoints` for surfaces that are registered several times. A motion that is far from `least_score`
+/// once it is near its end is not followed further: the two are `different`.
 [[nodiscard]] Registration registerSurfaces(const RegistrationSurface& model, const RegistrationSurface& seen,
-                                            const RegistrationConfig& config, const RegistrationSight& sight);
+                                            const RegistrationConfig& config, const RegistrationSight& sight,
+                                            const LeastScore& least_score = {});
 
 }  // namespace hoctomap

@@ -5,6 +5,9 @@
 #include <stdexcept>
 #include <utility>
 
+#include "OccupiedLeaves.h"
+#include "VoxelTransfer.h"
+
 namespace hoctomap {
 
 namespace {
@@ -19,6 +22,15 @@ std::unique_ptr<octomap::OcTree> emptyTree(double resolution) {
 /// Voxels along one edge of a leaf at `depth`.
 std::uint64_t voxelsPerEdge(const octomap::OcTree& tree, unsigned depth) {
   return std::uint64_t{1} << (tree.getTreeDepth() - depth);
+}
+
+/// Centre of a voxel, a few voxels on from the one with the key.
+Eigen::Vector3d centerOf(const octomap::OcTree& tree, const octomap::OcTreeKey& key,
+                         const Eigen::Array3i& steps = Eigen::Array3i::Zero()) {
+  const auto at = [&](unsigned axis) {
+    return tree.keyToCoord(static_cast<octomap::key_type>(key[axis] + steps[axis]));
+  };
+  return {at(0), at(1), at(2)};
 }
 
 }  // namespace
@@ -54,24 +66,14 @@ void NodeMap::absorb(const NodeMap& other, const Eigen::Isometry3d& this_T_other
 void NodeMap::give(NodeMap& other, const Eigen::Isometry3d& other_T_this,
                    const std::function<bool(const Eigen::Vector3f&)>& which) {
   occupied_valid_ = other.occupied_valid_ = false;
-  tree_->expand();
-  // What stays goes into a new tree: stock `deleteNode` leaves empty inner nodes behind.
-  auto rest = emptyTree(tree_->getResolution());
-  model_.applyTo(*rest);
-  for (auto leaf = tree_->begin_leafs(); leaf != tree_->end_leafs(); ++leaf) {
-    const Eigen::Vector3d p(leaf.getX(), leaf.getY(), leaf.getZ());
-    if (!tree_->isNodeOccupied(*leaf) || !which(p.cast<float>())) {
-      rest->setNodeValue(leaf.getKey(), leaf->getLogOdds(), true);
-      continue;
-    }
-    const Eigen::Vector3d q = other_T_this * p;
-    octomap::OcTreeKey key;
-    if (other.tree_->coordToKeyChecked(q.x(), q.y(), q.z(), key))
-      other.tree_->updateNode(key, leaf->getLogOdds());
-  }
-  rest->updateInnerOccupancy();
-  rest->prune();
-  tree_ = std::move(rest);
+  const auto center = [this](const octomap::OcTreeKey& key) { return centerOf(*tree_, key); };
+  engine::takeVoxels(
+      *tree_, [&](const octomap::OcTreeKey& key) { return which(center(key).cast<float>()); },
+      [&](const octomap::OcTreeKey& key, float log_odds) {
+        const Eigen::Vector3d p = other_T_this * center(key);
+        octomap::OcTreeKey there;
+        if (other.tree_->coordToKeyChecked(p.x(), p.y(), p.z(), there)) other.tree_->updateNode(there, log_odds);
+      });
 }
 
 const PointCloud& NodeMap::occupiedVoxels() const {
@@ -87,23 +89,20 @@ const Eigen::AlignedBox3d& NodeMap::occupiedBox() const {
 void NodeMap::collectOccupied() const {
   occupied_voxels_.clear();
   occupied_box_.setEmpty();
-  const double voxel = tree_->getResolution();
-  for (auto leaf = tree_->begin_leafs(); leaf != tree_->end_leafs(); ++leaf) {
-    if (!tree_->isNodeOccupied(*leaf)) continue;
-    const auto edge = voxelsPerEdge(*tree_, leaf.getDepth());
-    const Eigen::Vector3d center(leaf.getX(), leaf.getY(), leaf.getZ());
-    const Eigen::Vector3d half = Eigen::Vector3d::Constant(0.5 * voxel * static_cast<double>(edge));
-    occupied_box_.extend(Eigen::AlignedBox3d(center - half, center + half));
-    const Eigen::Vector3d first = center - half + Eigen::Vector3d::Constant(0.5 * voxel);
-    for (std::uint64_t x = 0; x < edge; ++x) {
-      for (std::uint64_t y = 0; y < edge; ++y) {
-        for (std::uint64_t z = 0; z < edge; ++z) {
-          const Eigen::Vector3d step(static_cast<double>(x), static_cast<double>(y), static_cast<double>(z));
-          occupied_voxels_.push_back((first + voxel * step).cast<float>());
+  const Eigen::Vector3d half = Eigen::Vector3d::Constant(0.5 * tree_->getResolution());
+  const auto visit = [&](const octomap::OcTreeKey& first, unsigned level) {
+    const int edge = 1 << level;
+    for (int x = 0; x < edge; ++x) {
+      for (int y = 0; y < edge; ++y) {
+        for (int z = 0; z < edge; ++z) {
+          const Eigen::Vector3d center = centerOf(*tree_, first, {x, y, z});
+          occupied_voxels_.push_back(center.cast<float>());
+          occupied_box_.extend(Eigen::AlignedBox3d(center - half, center + half));
         }
       }
     }
-  }
+  };
+  engine::OccupiedLeaves(*tree_, visit);
   occupied_valid_ = true;
 }
 

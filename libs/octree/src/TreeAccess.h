@@ -15,6 +15,9 @@ class NodeAccess : public octomap::OcTreeNode {
   static octomap::AbstractOcTreeNode**& childrenOf(octomap::OcTreeNode& node) {
     return node.*(&NodeAccess::children);
   }
+  static octomap::AbstractOcTreeNode* const* childrenOf(const octomap::OcTreeNode& node) {
+    return node.*(&NodeAccess::children);
+  }
 };
 
 class TreeAccess : public octomap::OcTree {
@@ -28,6 +31,14 @@ using Node = octomap::OcTreeNode;
 
 inline constexpr unsigned kTreeLevels = 16;
 inline constexpr unsigned kOctants = 8;
+
+/// Key of the first voxel of a child of a node `level` levels above the voxels.
+inline octomap::OcTreeKey childKey(const octomap::OcTreeKey& first, unsigned level, unsigned octant) {
+  octomap::OcTreeKey key = first;
+  for (unsigned axis = 0; axis < 3; ++axis)
+    key[axis] = static_cast<octomap::key_type>(key[axis] + ((octant >> axis & 1U) << (level - 1)));
+  return key;
+}
 
 inline Node* child(Node& node, unsigned octant) {
   auto* const* children = NodeAccess::childrenOf(node);
