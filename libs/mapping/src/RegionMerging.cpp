@@ -23,11 +23,13 @@ void RegionMerging::addBorder(CellIndex a, CellIndex b, const SeamBorder& border
 
 void RegionMerging::mergeWhatIsOne() {
   for (auto& borders : borders_) borders.settle();
+  std::vector<Candidate> candidates;
   for (CellIndex a = 0; a < borders_.size(); ++a) {
     for (const auto& [b, border] : borders_[a]) {
-      if (a < b) propose(a, b, border);
+      if (a < b && border.evidence < 0) candidates.push_back({border.certainty(), a, b});
     }
   }
+  queue_ = std::priority_queue<Candidate>({}, std::move(candidates));
   while (!queue_.empty()) {
     const Candidate top = queue_.top();
     queue_.pop();

@@ -17,52 +17,64 @@ namespace {
 using Cell = SeamVotes::Cell;
 using Index = CellIndex;
 
-/// The cells of objects, and which of them have a border: those that some scan has shown together, and
-/// neighbours.
-class CellGraph {
- public:
-  explicit CellGraph(const SeamVotes& votes) {
-    index_.reserve(2 * votes.all().size());
-    for (const auto& entry : votes.all()) {
-      if (!entry.second.is_object) continue;
-      index_[cellKey(entry.first)] = static_cast<Index>(entries_.size());
-      entries_.push_back(&entry);
-    }
-  }
-
-  [[nodiscard]] std::size_t size() const { return entries_.size(); }
-  [[nodiscard]] const Cell& cell(Index i) const { return entries_[i]->first; }
-  [[nodiscard]] std::optional<Index> find(const Cell& cell) const {
-    const auto found = index_.find(cellKey(cell));
-    return found == index_.end() ? std::nullopt : std::optional(found->second);
-  }
-
-  /// Calls `visit(j, border)` for the cells that have a border with cell i, each border from one of its sides
-  /// only.
-  template <typename Visit>
-  void forBorders(Index i, const Visit& visit) const {
-    // Neighbours are one unless scans say otherwise: views drift apart by a cell.
-    constexpr SeamBorder kNeighbours{-1, 1};
-    const auto& [c, votes] = *entries_[i];
-    for (std::size_t d = 0; d < SeamVotes::kDirections; ++d) {
-      if (!votes.known[d]) continue;
-      if (const auto j = find(SeamVotes::partner(c, d))) visit(*j, SeamBorder{votes.evidence[d], 1});
-    }
-    for (int step = 14; step < 27; ++step) {  // half of the 26 neighbours
-      const auto j = find({c.x + step / 9 - 1, c.y + step / 3 % 3 - 1, c.z + step % 3 - 1});
-      if (j) visit(*j, kNeighbours);
-    }
-  }
-
- private:
-  std::vector<const std::pair<const Cell, SeamVotes::Votes>*> entries_;
-  std::unordered_map<std::uint64_t, Index> index_;
-};
-
 struct CellBorder {
   Index a;
   Index b;
   SeamBorder border;
+};
+
+/// The cells of objects, in order, and which of them have a border: those that some scan has shown together,
+/// and neighbours.
+class CellGraph {
+ public:
+  explicit CellGraph(const SeamVotes& votes) {
+    for (const auto& entry : votes.all()) {
+      if (!entry.second.is_object) continue;
+      cells_.push_back(entry.first);
+      votes_.push_back(&entry.second);
+    }
+  }
+
+  [[nodiscard]] Index size() const { return static_cast<Index>(cells_.size()); }
+  [[nodiscard]] const Cell& cell(Index i) const { return cells_[i]; }
+  [[nodiscard]] std::optional<Index> find(const Cell& cell) const {
+    const auto found = std::lower_bound(cells_.begin(), cells_.end(), cell);
+    if (found == cells_.end() || *found != cell) return std::nullopt;
+    return static_cast<Index>(found - cells_.begin());
+  }
+
+  /// Each from one of its sides only; several of the same two add up.
+  [[nodiscard]] std::vector<CellBorder> borders() const {
+    // Neighbours are one unless scans say otherwise: views drift apart by a cell.
+    constexpr SeamBorder kNeighbours{-1, 1};
+    std::vector<CellBorder> borders;
+    for (std::size_t d = 0; d < SeamVotes::kDirections; ++d) {
+      forPairs(SeamVotes::partner({}, d), [&](Index i, Index j) {
+        if (votes_[i]->known[d]) borders.push_back({i, j, {votes_[i]->evidence[d], 1}});
+      });
+    }
+    for (int step = 14; step < 27; ++step) {  // half of the 26 neighbours
+      forPairs({step / 9 - 1, step / 3 % 3 - 1, step % 3 - 1},
+               [&](Index i, Index j) { borders.push_back({i, j, kNeighbours}); });
+    }
+    return borders;
+  }
+
+ private:
+  /// Calls `visit(i, j)` for all cells j that lie `offset` from a cell i: both in order, so one walk finds them.
+  template <typename Visit>
+  void forPairs(const Cell& offset, const Visit& visit) const {
+    Index j = 0;
+    for (Index i = 0; i < size(); ++i) {
+      const Cell other{cells_[i].x + offset.x, cells_[i].y + offset.y, cells_[i].z + offset.z};
+      while (j < size() && cells_[j] < other) ++j;
+      if (j == size()) return;
+      if (cells_[j] == other) visit(i, j);
+    }
+  }
+
+  std::vector<Cell> cells_;
+  std::vector<const SeamVotes::Votes*> votes_;
 };
 
 /// The cells that hang together, in order, of every group that holds one of `seeds`.
@@ -98,10 +110,7 @@ struct Place {
 
 SurfaceRegions::SurfaceRegions(const SeamVotes& votes, const SeamVotes::Cells& seeds) {
   const CellGraph graph(votes);
-  std::vector<CellBorder> borders;
-  for (Index i = 0; i < graph.size(); ++i) {
-    graph.forBorders(i, [&](Index j, const SeamBorder& border) { borders.push_back({i, j, border}); });
-  }
+  const std::vector<CellBorder> borders = graph.borders();
   std::vector<std::optional<Place>> places(graph.size());
   std::vector<RegionMerging> mergings;
   for (const auto& group : groups(graph, borders, seeds)) {
