@@ -47,6 +47,7 @@ int main(int argc, char** argv) {
   hoctomap::addRenderCommand(app, action);
   hoctomap::addExplainCommand(app, action);
   hoctomap::addDiffCommand(app, action);
+  hoctomap::addQueryCommand(app, action);
   hoctomap::addVerifyCommand(app, action);
   hoctomap::addExportCommand(app, action);
   hoctomap::addSimulateCommand(app, action);
