@@ -67,7 +67,8 @@ void CsvAnswer::nodes(std::string_view, std::span<const NodeInRegion> values, co
 }
 
 JsonAnswer::JsonAnswer(std::string_view kind, std::span<const double> question) {
-  object_[std::string(kind)] = std::vector<double>(question.begin(), question.end());
+  object_["question"] = kind;
+  object_["numbers"] = std::vector<double>(question.begin(), question.end());
 }
 void JsonAnswer::text(std::string_view name, std::string_view value) {
   object_[std::string(name)] = value;
