@@ -18,6 +18,7 @@ void addRenderCommand(CLI::App& app, Action& action);
 void addExplainCommand(CLI::App& app, Action& action);
 void addDiffCommand(CLI::App& app, Action& action);
 void addQueryCommand(CLI::App& app, Action& action);
+void addEditCommand(CLI::App& app, Action& action);
 void addVerifyCommand(CLI::App& app, Action& action);
 void addExportCommand(CLI::App& app, Action& action);
 void addSimulateCommand(CLI::App& app, Action& action);

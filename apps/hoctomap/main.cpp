@@ -48,6 +48,7 @@ int main(int argc, char** argv) {
   hoctomap::addExplainCommand(app, action);
   hoctomap::addDiffCommand(app, action);
   hoctomap::addQueryCommand(app, action);
+  hoctomap::addEditCommand(app, action);
   hoctomap::addVerifyCommand(app, action);
   hoctomap::addExportCommand(app, action);
   hoctomap::addSimulateCommand(app, action);

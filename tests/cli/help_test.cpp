@@ -9,8 +9,8 @@ namespace {
 TEST(Help, NamesEveryCommand) {
   const auto outcome = test::hoctomap({"--help"});
   EXPECT_EQ(outcome.exit_code, 0);
-  for (const char* command :
-       {"build", "segment", "info", "render", "explain", "diff", "verify", "export", "simulate", "explore"}) {
+  for (const char* command : {"build", "segment", "info", "render", "explain", "diff", "query", "edit",
+                              "verify", "export", "simulate", "explore"}) {
     EXPECT_NE(outcome.out.find(command), std::string::npos) << command;
   }
   EXPECT_TRUE(outcome.err.empty());
@@ -34,6 +34,10 @@ TEST(Help, OfACommandNamesItsOptionsAndAnExample) {
       {"render", {"DIR", "-o", "--size", "--view", "--hide", "--at-scan"}},
       {"explain", {"DIR", "NODE", "--plot", "--json", "--at-scan"}},
       {"diff", {"A", "B", "--transform", "--json", "-o", "--at-scan", "--at-scan-a", "--at-scan-b"}},
+      {"query",
+       {"DIR", "--point", "--ray", "--box", "--sphere", "--distance", "--unknown", "--objects", "--batch",
+        "--kind", "--ignore-unknown", "--max-range", "--step", "--min-existence", "--json", "--at-scan"}},
+      {"edit", {"DIR", "relabel", "move", "remove", "merge"}},
       {"verify", {"DIR", "--json"}},
       {"export", {"DIR", "--format", "-o", "--at-scan"}},
       {"simulate", {"-c", "-o", "--set"}},

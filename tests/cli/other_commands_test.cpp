@@ -162,21 +162,5 @@ TEST(StockTools, MrptReadsTheManifest) {
   }
 }
 
-TEST(Example, AnOwnRelationMakesItsTree) {
-  const auto outcome = test::runProgram(HOCTOMAP_EXAMPLE, {});
-  EXPECT_EQ(outcome.exit_code, 0);
-  EXPECT_NE(outcome.out.find("background 0"), std::string::npos) << outcome.out;
-  EXPECT_NE(outcome.out.find("\n  shelf 1"), std::string::npos) << outcome.out;
-  EXPECT_NE(outcome.out.find("\n    object 2"), std::string::npos) << outcome.out;
-  EXPECT_NE(outcome.out.find("\n    object 3"), std::string::npos) << outcome.out;
-}
-
-TEST(Example, AnOwnRobotExploresItsTable) {
-  const auto outcome = test::runProgram(HOCTOMAP_ROBOT_EXAMPLE, {});
-  EXPECT_EQ(outcome.exit_code, 0);
-  EXPECT_NE(outcome.out.find("\nfirst_view\nview\n"), std::string::npos) << outcome.out;
-  EXPECT_NE(outcome.out.find("\ntable 1 explored\n"), std::string::npos) << outcome.out;
-}
-
 }  // namespace
 }  // namespace hoctomap

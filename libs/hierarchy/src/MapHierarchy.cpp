@@ -137,6 +137,11 @@ void MapHierarchy::move(NodeId id, const Pose& motion) {
   touchSubtree(id);
 }
 
+void MapHierarchy::relabel(NodeId id, Label label) {
+  if (id == kRootId) throw std::invalid_argument("the root keeps its label");
+  node(id).label_ = std::move(label);
+}
+
 void MapHierarchy::reparent(NodeId id, NodeId parent) {
   if (id == kRootId) throw std::invalid_argument("the root has no parent");
   for (const MapNode* n = &node(parent);; n = &node(*n->parent_)) {

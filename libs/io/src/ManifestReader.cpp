@@ -131,6 +131,7 @@ NodeRecord readNode(const YamlSection& section, NodeList list) {
   node.first_scan = section["first_scan"].count();
   node.last_scan = section["last_scan"].count();
   node.version = section["version"].count();
+  if (section.has("edition")) node.edition = section["edition"].count();
   const YamlSection votes = section["votes"];
   node.votes.apart = votes["apart"].count();
   node.votes.joined = votes["joined"].count();
@@ -169,6 +170,7 @@ Manifest readDocument(const YamlSection& document, const std::string& name) {
   manifest.scans = document["scans"].count();
   if (document.has("mapped_scans")) manifest.mapped_scans = document["mapped_scans"].count();
   if (document.has("skipped_scans")) manifest.skipped_scans = document["skipped_scans"].count();
+  if (document.has("edits")) manifest.edits = document["edits"].count();
   if (document.has("last_stamp")) manifest.last_stamp = document["last_stamp"].number();
   manifest.config_sha256 = document["config_sha256"].text();
   manifest.input = document["input"].text();

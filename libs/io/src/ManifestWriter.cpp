@@ -62,6 +62,7 @@ std::string nodeText(const NodeRecord& node) {
   text += count("first_scan", node.first_scan);
   text += count("last_scan", node.last_scan);
   text += count("version", node.version);
+  if (node.edition > 0) text += count("edition", node.edition);
   text += "    votes: {apart: " + std::to_string(node.votes.apart) +
           ", joined: " + std::to_string(node.votes.joined) +
           ", with: " + std::to_string(node.votes.with.value) + "}\n";
@@ -93,6 +94,7 @@ std::string toYaml(const Manifest& manifest) {
   text += "scans: " + std::to_string(manifest.scans) + "\n";
   text += "mapped_scans: " + std::to_string(manifest.mapped_scans) + "\n";
   text += "skipped_scans: " + std::to_string(manifest.skipped_scans) + "\n";
+  if (manifest.edits > 0) text += "edits: " + std::to_string(manifest.edits) + "\n";
   text += "last_stamp: " + yamlNumber(manifest.last_stamp) + "\n";
   text += "config_sha256: " + yamlText(manifest.config_sha256) + "\n";
   text += "input: " + yamlText(manifest.input) + "\n";

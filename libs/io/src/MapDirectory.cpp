@@ -76,7 +76,7 @@ void MapDirectory::Session::commit(const MapState& state) {
   config_written_ = true;
   manifest.events = events_.write(disk_, directory_);
   manifest.events_before_end = events_before_end_;
-  manifest.seams = writeSeams(state);
+  manifest.seams = writeSeams(state, manifest.edits);
   manifest.existence = existence_.write(disk_, directory_);
   static_cast<void>(timing_.write(disk_, directory_));
   disk_.syncDirectory(directory_ / kNodesFolder);
@@ -88,10 +88,10 @@ void MapDirectory::Session::commit(const MapState& state) {
 }
 
 /// Named by the scan, as a node's file is: never changed once it is written.
-std::optional<FileRecord> MapDirectory::Session::writeSeams(const MapState& state) {
+std::optional<FileRecord> MapDirectory::Session::writeSeams(const MapState& state, std::uint64_t edits) {
   if (state.seams == nullptr || state.seams->all().empty()) return std::nullopt;
   const std::string bytes = seamsText(*state.seams);
-  const FileRecord record{std::string(kNodesFolder) + "/" + seamsFileName(state.scans), bytes.size(),
+  const FileRecord record{std::string(kNodesFolder) + "/" + seamsFileName(state.scans, edits), bytes.size(),
                           sha256Hex(bytes)};
   const bool is_there = committed_ && committed_->seams == record;
   if (!is_there) disk_.replace(directory_ / record.path, bytes);
@@ -121,6 +121,7 @@ Manifest MapDirectory::Session::describe(const MapState& state) {
   Manifest manifest;
   manifest.generator = options_.generator;
   manifest.scans = state.scans;
+  manifest.edits = editsBefore() + (options_.mode == MapOpenMode::edit ? 1 : 0);
   manifest.last_stamp = state.last_stamp;
   manifest.mapped_scans = state.mapped_scans;
   manifest.skipped_scans = state.skipped_scans;

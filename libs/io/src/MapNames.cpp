@@ -18,22 +18,33 @@ bool isPaddedNumber(std::string_view text) {
   return text.size() >= kDigits && (text.size() == kDigits || text.front() != '0') && parseCount(text);
 }
 
+std::string editSuffix(std::uint64_t edit) {
+  return edit == 0 ? std::string() : "-" + std::to_string(edit);
+}
+
+/// `VVVVVV` or `VVVVVV-E`.
+bool isVersion(std::string_view text) {
+  const auto dash = text.find('-');
+  if (dash == std::string_view::npos) return isPaddedNumber(text);
+  const std::string_view edit = text.substr(dash + 1);
+  return isPaddedNumber(text.substr(0, dash)) && !edit.starts_with('0') && parseCount(edit);
+}
+
 }  // namespace
 
-std::string nodeFileStem(NodeId id, std::uint64_t version) {
-  return padded(id.value, kDigits) + "-" + padded(version, kDigits);
+std::string nodeFileStem(NodeId id, std::uint64_t version, std::uint64_t edition) {
+  return padded(id.value, kDigits) + "-" + padded(version, kDigits) + editSuffix(edition);
 }
 
 bool isNodeFileName(const std::string& name) {
   const std::string_view text = name;
   const auto dash = text.find('-');
   if (dash == std::string_view::npos || !(text.ends_with(".ot") || text.ends_with(".bt"))) return false;
-  return isPaddedNumber(text.substr(0, dash)) &&
-         isPaddedNumber(text.substr(dash + 1, text.size() - dash - 4));
+  return isPaddedNumber(text.substr(0, dash)) && isVersion(text.substr(dash + 1, text.size() - dash - 4));
 }
 
-std::string seamsFileName(std::uint64_t scans) {
-  return "seams-" + padded(scans, kDigits) + ".csv";
+std::string seamsFileName(std::uint64_t scans, std::uint64_t edits) {
+  return "seams-" + padded(scans, kDigits) + editSuffix(edits) + ".csv";
 }
 
 bool isSeamsFileName(const std::string& name) {
@@ -42,7 +53,7 @@ bool isSeamsFileName(const std::string& name) {
   const std::string_view text = name;
   if (!text.starts_with(kBegin) || !text.ends_with(kEnd) || text.size() < kBegin.size() + kEnd.size())
     return false;
-  return isPaddedNumber(text.substr(kBegin.size(), text.size() - kBegin.size() - kEnd.size()));
+  return isVersion(text.substr(kBegin.size(), text.size() - kBegin.size() - kEnd.size()));
 }
 
 std::string snapshotName(std::uint64_t scan) {

@@ -23,10 +23,10 @@ inline constexpr const char* kNodesFolder = "nodes";
 /// Where the files of the old map stand while `--overwrite` builds a new one.
 inline constexpr const char* kPreviousFolder = "previous";
 
-/// `NNNNNN-VVVVVV`, without extension.
-[[nodiscard]] std::string nodeFileStem(NodeId id, std::uint64_t version);
+/// `NNNNNN-VVVVVV`, without extension; of what was edited by hand `NNNNNN-VVVVVV-E`.
+[[nodiscard]] std::string nodeFileStem(NodeId id, std::uint64_t version, std::uint64_t edition);
+[[nodiscard]] std::string seamsFileName(std::uint64_t scans, std::uint64_t edits);
 /// Whether a file of this name in `nodes/` can only be ours.
-[[nodiscard]] std::string seamsFileName(std::uint64_t scans);
 [[nodiscard]] bool isSeamsFileName(const std::string& name);
 [[nodiscard]] bool isNodeFileName(const std::string& name);
 

@@ -26,6 +26,7 @@ void setState(MapNode& node, const NodeRecord& record) {
   node.first_scan = record.first_scan;
   node.last_scan = record.last_scan;
   node.version = record.version;
+  node.edition = record.edition;
   node.votes = record.votes;
   node.confirmation = record.confirmation;
 }
@@ -44,19 +45,22 @@ MapHierarchy readHierarchy(const std::filesystem::path& directory, const Manifes
   return hierarchy;
 }
 
-/// What a run that goes on begins with: also the nodes that wait for confirmation, among them those that only
-/// the end of the log has let in.
-void holdBack(const std::filesystem::path& directory, const Manifest& manifest, MapHierarchy& hierarchy) {
+/// The nodes that wait for confirmation.
+void addWaiting(const std::filesystem::path& directory, const Manifest& manifest, MapHierarchy& hierarchy) {
   for (const NodeRecord& record : manifest.waiting) {
     setState(hierarchy.restore(record.id, record.label, readNodeMap(directory, record), record.parent_T_node,
                                *record.parent),
              record);
   }
+  hierarchy.setNextId(manifest.next_id);
+}
+
+/// What a run that goes on begins with: those that only the end of the log has let in wait again.
+void holdBack(MapHierarchy& hierarchy) {
   for (const NodeId id : hierarchy.ids()) {
     Confirmation& confirmation = hierarchy.node(id).confirmation;
     if (confirmation.entered_at_end) confirmation = confirmation.heldBack();
   }
-  hierarchy.setNextId(manifest.next_id);
 }
 
 RemovedNode readRemoved(const std::filesystem::path& directory, const NodeRecord& record) {
@@ -110,9 +114,11 @@ Manifest readManifest(const std::filesystem::path& directory, std::optional<std:
 StoredMap readMap(const std::filesystem::path& directory, const MapReadOptions& options) {
   Manifest manifest = readManifest(directory, options.at_scan);
   MapHierarchy hierarchy = readHierarchy(directory, manifest);
-  if (options.to_go_on) holdBack(directory, manifest, hierarchy);
+  const bool all_state = options.to_go_on || options.to_edit;
+  if (all_state) addWaiting(directory, manifest, hierarchy);
+  if (options.to_go_on) holdBack(hierarchy);
   SeamVotes seams;
-  if (options.to_go_on && manifest.seams) {
+  if (all_state && manifest.seams) {
     seams = parseSeams(readChecked(directory, *manifest.seams, false),
                        (directory / manifest.seams->path).string());
   }

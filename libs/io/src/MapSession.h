@@ -39,7 +39,8 @@ class MapDirectory::Session {
 
   // Committing.
   void makeWay();
-  [[nodiscard]] std::optional<FileRecord> writeSeams(const MapState& state);
+  [[nodiscard]] std::optional<FileRecord> writeSeams(const MapState& state, std::uint64_t edits);
+  [[nodiscard]] std::uint64_t editsBefore() const { return committed_ ? committed_->edits : 0; }
   void writeNodes(const MapState& state);
   [[nodiscard]] Manifest describe(const MapState& state);
   void commitManifest(const Manifest& manifest, bool keep);

@@ -4,6 +4,7 @@
 #include <sstream>
 #include <system_error>
 
+#include "MapFiles.h"
 #include "MapNames.h"
 #include "MapSession.h"
 #include "NumberText.h"
@@ -74,7 +75,7 @@ MapDirectory::Session::Session(std::filesystem::path directory, MapDirectoryOpti
     requireEmpty();
   } else if (options_.mode == MapOpenMode::overwrite) {
     lookAtOldMap();
-  } else if (std::filesystem::exists(directory_ / kManifestName)) {
+  } else if (options_.mode == MapOpenMode::edit || std::filesystem::exists(directory_ / kManifestName)) {
     resume();
   } else {
     requireNothingForeign();
@@ -110,9 +111,11 @@ void MapDirectory::Session::requireNothingForeign() const {
 
 void MapDirectory::Session::resume() {
   Manifest manifest = readManifest(directory_);
-  checkSameConfig(manifest);
+  const bool edits = options_.mode == MapOpenMode::edit;
+  if (!edits) checkSameConfig(manifest);
   manifest = bringBack(disk_, directory_, std::move(manifest));
-  events_.resume(directory_, manifest.events_before_end.value_or(manifest.events));
+  if (edits) options_.config = readChecked(directory_, manifest.config, false);
+  events_.resume(directory_, edits ? manifest.events : manifest.events_before_end.value_or(manifest.events));
   existence_.resume(directory_, manifest.existence);
   timing_.resume(directory_, [&](std::string_view scan) {
     const auto number = parseCount(scan);

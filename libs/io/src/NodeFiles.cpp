@@ -17,7 +17,7 @@
 namespace hoctomap {
 
 void NodeFiles::know(const NodeRecord& record) {
-  known_.insert_or_assign({record.id, record.version},
+  known_.insert_or_assign({record.id, record.version, record.edition},
                           Contents{record.box_center, record.box_half_extents, record.voxels,
                                    record.memory_bytes, record.ot, record.bt});
 }
@@ -25,7 +25,7 @@ void NodeFiles::know(const NodeRecord& record) {
 NodeFiles::Made NodeFiles::make(const MapNode& node) {
   const auto recordOf = [&](const char* extension, const std::string& bytes) {
     const std::string path =
-        std::string(kNodesFolder) + "/" + nodeFileStem(node.id(), node.version) + extension;
+        std::string(kNodesFolder) + "/" + nodeFileStem(node.id(), node.version, node.edition) + extension;
     return FileRecord{path, bytes.size(), sha256Hex(bytes)};
   };
   Made made{&node, {}, otBytes(node.map().tree()), btBytes(node.map().tree())};
@@ -44,9 +44,8 @@ NodeFiles::Made NodeFiles::make(const MapNode& node) {
 
 void NodeFiles::write(std::span<const MapNode* const> nodes) {
   std::vector<const MapNode*> unknown;
-  std::copy_if(nodes.begin(), nodes.end(), std::back_inserter(unknown), [this](const MapNode* node) {
-    return !known_.contains({node->id(), node->version});
-  });
+  std::copy_if(nodes.begin(), nodes.end(), std::back_inserter(unknown),
+               [this](const MapNode* node) { return !known_.contains(keyOf(*node)); });
   std::size_t next = 0;
   // oneTBB leaks what it has handed to a filter that throws: the error waits until the pipeline is empty.
   std::exception_ptr failure;
@@ -61,7 +60,7 @@ void NodeFiles::write(std::span<const MapNode* const> nodes) {
     try {
       disk_.replace(directory_ / made->contents.ot.path, made->ot);
       disk_.replace(directory_ / made->contents.bt.path, made->bt);
-      known_.insert_or_assign({made->node->id(), made->node->version}, made->contents);
+      known_.insert_or_assign(keyOf(*made->node), made->contents);
     } catch (...) {
       failure = std::current_exception();
       failed = true;
@@ -78,7 +77,7 @@ void NodeFiles::write(std::span<const MapNode* const> nodes) {
 }
 
 NodeRecord NodeFiles::record(const MapNode& node, const Pose& world_T_node) const {
-  const Contents& contents = known_.at({node.id(), node.version});
+  const Contents& contents = known_.at(keyOf(node));
 
   NodeRecord record;
   record.id = node.id();
@@ -97,6 +96,7 @@ NodeRecord NodeFiles::record(const MapNode& node, const Pose& world_T_node) cons
   record.first_scan = node.first_scan;
   record.last_scan = node.last_scan;
   record.version = node.version;
+  record.edition = node.edition;
   record.votes = node.votes;
   record.confirmation = node.confirmation;
   record.occupancy = node.map().model();

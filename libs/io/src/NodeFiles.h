@@ -6,6 +6,7 @@
 #include <map>
 #include <span>
 #include <string>
+#include <tuple>
 #include <utility>
 
 #include "Disk.h"
@@ -51,7 +52,10 @@ class NodeFiles {
 
   const Disk& disk_;
   std::filesystem::path directory_;
-  std::map<std::pair<NodeId, std::uint64_t>, Contents> known_;
+  /// Node, version, edition.
+  using Key = std::tuple<NodeId, std::uint64_t, std::uint64_t>;
+  static Key keyOf(const MapNode& node) { return {node.id(), node.version, node.edition}; }
+  std::map<Key, Contents> known_;
 };
 
 }  // namespace hoctomap

@@ -75,6 +75,9 @@ class MapHierarchy {
   /// @throws std::invalid_argument for the root.
   void move(NodeId id, const Pose& motion);
 
+  /// @throws std::invalid_argument for the root.
+  void relabel(NodeId id, Label label);
+
   /// Hangs a node under another parent and keeps its world pose.
   /// @throws std::invalid_argument if that would close a cycle, or for the root.
   void reparent(NodeId id, NodeId parent);

@@ -71,6 +71,7 @@ class MapNode {
   std::uint64_t first_scan = 0;  ///< first scan in its map
   std::uint64_t last_scan = 0;   ///< last scan that updated its map
   std::uint64_t version = 0;     ///< last scan that changed the node's map; names its file
+  std::uint64_t edition = 0;     ///< last edit by hand that changed it, if any; names its file, too
   PieceVotes votes;
   Confirmation confirmation;
 

@@ -48,6 +48,7 @@ struct NodeRecord {
   std::uint64_t first_scan = 0;
   std::uint64_t last_scan = 0;
   std::uint64_t version = 0;  ///< names the files
+  std::uint64_t edition = 0;  ///< the same, of nodes whose octree was edited by hand; 0: never
   PieceVotes votes;
   Confirmation confirmation;
   OccupancyModel occupancy;  ///< sensor model (a `.ot` file forgets it)
@@ -73,6 +74,7 @@ struct Manifest {
   double last_stamp = 0.0;  ///< s since 1970, of the last of them
   std::uint64_t mapped_scans = 0;   ///< of them, those that were of use ...
   std::uint64_t skipped_scans = 0;  ///< ... and those that were not; the rest was not chosen
+  std::uint64_t edits = 0;          ///< by hand (`hoctomap edit`) since the first scan
   std::string config_sha256;        ///< of `config.ini`
   std::string input;  ///< what the caller knows the log by, in order to notice another one; may be empty
   NodeId next_id{1};  ///< id of the next new node

@@ -19,18 +19,20 @@ namespace hoctomap {
 enum class MapOpenMode {
   create,     ///< the directory must be missing or empty
   resume,     ///< go on with the map in it (`--continue`); a missing or empty directory starts a new one
+  edit,       ///< change the map in it by hand (`hoctomap edit`): its own configuration holds, and what the
+              ///< end of the log has let in is in it for good
   overwrite,  ///< start a new map; the old one stays whole until the first commit (`--overwrite`)
 };
 
 struct MapDirectoryOptions {
   MapOpenMode mode = MapOpenMode::create;
-  std::string config;     ///< text of `config.ini`
+  std::string config{};   ///< text of `config.ini`; not needed to edit
   std::string generator;  ///< program and version
   /// Called before every step that changes the disk, with a word for it and the file: tests let it throw.
   std::function<void(std::string_view step, const std::filesystem::path& file)> before_step;
 };
 
-/// What a commit writes down.
+/// What a commit writes down. In mode `edit` each commit is one edit (Manifest::edits).
 struct MapState {
   const MapHierarchy& hierarchy;
   std::span<const RemovedNode> removed;  ///< by this session: `HierarchyMapper::removed()`

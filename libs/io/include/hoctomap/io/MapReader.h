@@ -18,6 +18,7 @@ struct MapReadOptions {
   std::optional<std::uint64_t> at_scan;  ///< the kept snapshot of this scan; default: the map itself
   bool removed = false;                  ///< whether to load the octrees of removed nodes, too
   bool to_go_on = false;                 ///< as the mapper had it before the end of the log
+  bool to_edit = false;                  ///< as it is, with all that a commit needs: what waits, and seams
 };
 
 /// A map of a directory. Writing it again gives the same bytes.
@@ -25,7 +26,7 @@ struct StoredMap {
   Manifest manifest;
   MapHierarchy hierarchy;
   std::vector<RemovedNode> removed;  ///< empty unless asked for
-  SeamVotes seams;                   ///< empty unless the map is read to go on
+  SeamVotes seams;                   ///< empty unless the map is read to go on or to edit
 };
 
 /// Loads a map: manifest and octrees. Every octree file is checked against its size and hash and validated

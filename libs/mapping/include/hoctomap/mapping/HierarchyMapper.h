@@ -77,6 +77,20 @@ class HierarchyMapper {
   /// speaks for them. Nothing may be integrated afterwards.
   UpdateReport finish(std::uint64_t scan, double stamp);
 
+  /// Changes of the map by hand, between scans (HierarchyMapperEdits.cpp); to move is to integrate a motion.
+  struct Edit {
+    std::uint64_t scan = 0;    ///< the last one
+    double stamp = 0.0;        ///< of it
+    std::uint64_t number = 1;  ///< of the edit
+  };
+  /// Nodes that only the end of the log has let in are in the map for good.
+  void confirmEntered();
+  /// All three: @throws ConfigError if the map has no such node, or may not be changed like this.
+  UpdateReport relabel(NodeId id, const Label& label, const Edit& edit);
+  UpdateReport remove(NodeId id, const Edit& edit);
+  /// `piece` goes into `whole`, its children go with it.
+  UpdateReport merge(NodeId whole, NodeId piece, const Edit& edit);
+
   /// Nodes that wait for confirmation are in it (`MapNode::confirmation`).
   [[nodiscard]] const MapHierarchy& hierarchy() const { return hierarchy_; }
   /// What the scans say of where objects meet; belongs to the state of a map that is gone on with.
@@ -132,6 +146,8 @@ class HierarchyMapper {
   [[nodiscard]] std::optional<NodeId> nodeOf(std::uint32_t region, const LabelledPart& part,
                                              const SurfaceRegions& regions, const NodeRegions& held,
                                              const std::set<NodeId>& near) const;
+  // HierarchyMapperEdits.cpp
+  void requireEditable(NodeId id) const;
   // HierarchyMapperConfirmation.cpp
   void confirmNodes(const std::vector<LabelledPart>& parts, const NodeEvidence& evidence,
                     UpdateReport& report);
