@@ -28,6 +28,7 @@ class Edit : public ::testing::Test {
     if (expected == 0) {
       const auto check = test::hoctomap({"verify", map});
       EXPECT_EQ(check.exit_code, 0) << check.out;
+      EXPECT_EQ(check.out.find("foreign"), std::string::npos) << check.out;
       EXPECT_TRUE(readManifest(map).scene) << "the scene is renewed";
     }
     return outcome;

@@ -75,7 +75,8 @@ class Checker {
       if (!ours && !fixed.contains(name)) check_.foreign.push_back(name);
     }
     for (const std::string& name : listDirectory(directory_ / kNodesFolder)) {
-      if (!isNodeFileName(name)) check_.foreign.push_back(std::string(kNodesFolder) + "/" + name);
+      if (!isNodeFileName(name) && !isSeamsFileName(name))
+        check_.foreign.push_back(std::string(kNodesFolder) + "/" + name);
     }
   }
 
