@@ -6,6 +6,7 @@
 #include <boost/geometry/index/rtree.hpp>
 #include <boost/iterator/function_output_iterator.hpp>
 #include <cstdint>
+#include <optional>
 #include <utility>
 #include <vector>
 
@@ -33,14 +34,11 @@ class BoxIndex {
               boost::geometry::model::segment<Point>(toPoint(from), toPoint(to))),
           visit);
   }
-  /// Calls `visit(number)` from the nearest box on, until it returns false.
-  template <class Visit>
-  void fromNearest(const Eigen::Vector3d& p, const Visit& visit) const {
-    if (tree_.empty()) return;
-    for (auto found =
-             tree_.qbegin(boost::geometry::index::nearest(toPoint(p), static_cast<unsigned>(tree_.size())));
-         found != tree_.qend() && visit(found->second); ++found) {
-    }
+  /// The box nearest to a point; nothing if there is none.
+  [[nodiscard]] std::optional<std::uint32_t> nearest(const Eigen::Vector3d& p) const {
+    std::optional<std::uint32_t> found;
+    query(boost::geometry::index::nearest(toPoint(p), 1), [&found](std::uint32_t i) { found = i; });
+    return found;
   }
 
  private:

@@ -135,14 +135,15 @@ std::optional<NearestVoxel> HierarchyQuery::nearestOccupied(const Eigen::Vector3
                                                             double max_distance) const {
   const auto& nodes = nodes_->all;
   Nearest best{max_distance * max_distance, nodes.size()};
-  nodes_->occupied.fromNearest(world_point, [&](std::size_t i) {
-    constexpr double kHair = 1e-5;  // m: the boxes of the index, and so their order, are a little off
-    const double least = nodes[i].occupied_world.exteriorDistance(world_point);
-    if (least > std::sqrt(best.squared) + kHair) return false;
-    const Eigen::Vector3d p = nodes[i].node_T_world * world_point;
-    search(nodes[i], i, nodes[i].top, p, best);
-    return true;
-  });
+  const auto look = [&](std::size_t i) {
+    search(nodes[i], i, nodes[i].top, nodes[i].node_T_world * world_point, best);
+  };
+  // The node whose box is nearest says how far off the others may be.
+  const auto nearest = nodes_->occupied.nearest(world_point);
+  if (!nearest) return std::nullopt;
+  look(*nearest);
+  const Eigen::Vector3d reach = Eigen::Vector3d::Constant(std::sqrt(best.squared));
+  nodes_->occupied.meeting({world_point - reach, world_point + reach}, look);
   if (best.index == nodes.size()) return std::nullopt;
   return NearestVoxel{std::sqrt(best.squared), best.world_point, nodes[best.index].id};
 }
