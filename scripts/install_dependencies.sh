@@ -15,10 +15,12 @@ packages=(
   libcli11-dev libsimpleini-dev libyaml-cpp-dev nlohmann-json3-dev libssl-dev libpng-dev zlib1g-dev
   # the simulated sensor
   libembree-dev libassimp-dev
+  # point clouds of other formats
+  libopen3d-dev
   # pictures without a display
   libegl1 libgl1-mesa-dri
-  # tests; octomap-tools, mrpt-apps and python3-yaml open our results
-  libgtest-dev octomap-tools mrpt-apps xvfb python3-yaml python3-numpy python3-pil
+  # tests; octomap-tools, mrpt-apps, pcl-tools and python3-yaml open our results
+  libgtest-dev octomap-tools mrpt-apps pcl-tools xvfb python3-yaml python3-numpy python3-pil
   # benchmarks, and plots of the experiments
   libbenchmark-dev gnuplot-nox
 )

@@ -12,10 +12,17 @@ namespace hoctomap {
 
 namespace {
 
+struct WriteOptions {
+  std::string log;
+  double depth_unit = 0.001;
+  bool external_images = false;
+  bool report = false;
+};
+
 /// Takes messages from stdin up to the end message and completes the log; without one (the sender died)
 /// nothing stays behind.
-StreamEnd writeLog(const std::string& log, double depth_unit) {
-  LogWriter writer(log, depth_unit);
+StreamEnd writeLog(const WriteOptions& options) {
+  LogWriter writer(options.log, options.depth_unit, options.external_images);
   ScanStreamReader reader(STDIN_FILENO);
   for (;;) {
     const StreamMessage message = reader.read();
@@ -28,17 +35,17 @@ StreamEnd writeLog(const std::string& log, double depth_unit) {
   }
 }
 
-StreamMessage resultOf(const std::string& log, double depth_unit) {
+StreamMessage resultOf(const WriteOptions& options) {
   try {
-    return writeLog(log, depth_unit);
+    return writeLog(options);
   } catch (const std::exception& error) {
     return StreamError{exitCodeOf(error), error.what()};
   }
 }
 
-int writeLogReporting(const std::string& log, double depth_unit) {
+int writeLogReporting(const WriteOptions& options) {
   const int stream = takeOverOutput();
-  const StreamMessage result = resultOf(log, depth_unit);
+  const StreamMessage result = resultOf(options);
   try {
     ScanStreamWriter(stream).write(result);
   } catch (const FileError&) {
@@ -52,17 +59,16 @@ int writeLogReporting(const std::string& log, double depth_unit) {
 
 void addWriteLogCommand(CLI::App& app, VerbRun& run) {
   auto* verb = app.add_subcommand("write-log", "write a rawlog from binary messages on stdin");
-  const auto log = std::make_shared<std::string>();
-  const auto unit = std::make_shared<double>(0.001);
-  const auto report = std::make_shared<bool>(false);
-  verb->add_option("log", *log, "rawlog to write")->required();
-  verb->add_option("--depth-unit", *unit, "metres a step of the 16-bit range images")
+  const auto options = std::make_shared<WriteOptions>();
+  verb->add_option("log", options->log, "rawlog to write")->required();
+  verb->add_option("--depth-unit", options->depth_unit, "metres a step of the 16-bit range images")
       ->check(CLI::PositiveNumber);
-  verb->add_flag("--report-on-stdout", *report, "answer with a binary message");
+  verb->add_flag("--external-images", options->external_images, "images as files beside the log");
+  verb->add_flag("--report-on-stdout", options->report, "answer with a binary message");
   verb->callback([=, &run] {
     run = [=] {
-      if (*report) return writeLogReporting(*log, *unit);
-      writeLog(*log, *unit);
+      if (options->report) return writeLogReporting(*options);
+      writeLog(*options);
       return 0;
     };
   });

@@ -21,6 +21,7 @@ void addQueryCommand(CLI::App& app, Action& action);
 void addEditCommand(CLI::App& app, Action& action);
 void addVerifyCommand(CLI::App& app, Action& action);
 void addExportCommand(CLI::App& app, Action& action);
+void addImportCommand(CLI::App& app, Action& action);
 void addSimulateCommand(CLI::App& app, Action& action);
 void addExploreCommand(CLI::App& app, Action& action);
 

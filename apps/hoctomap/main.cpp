@@ -51,6 +51,7 @@ int main(int argc, char** argv) {
   hoctomap::addEditCommand(app, action);
   hoctomap::addVerifyCommand(app, action);
   hoctomap::addExportCommand(app, action);
+  hoctomap::addImportCommand(app, action);
   hoctomap::addSimulateCommand(app, action);
   hoctomap::addExploreCommand(app, action);
 

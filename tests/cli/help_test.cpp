@@ -10,7 +10,7 @@ TEST(Help, NamesEveryCommand) {
   const auto outcome = test::hoctomap({"--help"});
   EXPECT_EQ(outcome.exit_code, 0);
   for (const char* command : {"build", "segment", "info", "render", "explain", "diff", "query", "edit",
-                              "verify", "export", "simulate", "explore"}) {
+                              "verify", "export", "import", "simulate", "explore"}) {
     EXPECT_NE(outcome.out.find(command), std::string::npos) << command;
   }
   EXPECT_TRUE(outcome.err.empty());
@@ -40,6 +40,7 @@ TEST(Help, OfACommandNamesItsOptionsAndAnExample) {
       {"edit", {"DIR", "relabel", "move", "remove", "merge"}},
       {"verify", {"DIR", "--json"}},
       {"export", {"DIR", "--format", "-o", "--at-scan"}},
+      {"import", {"tum", "frames", "pcd"}},
       {"simulate", {"-c", "-o", "--set"}},
       {"explore", {"-c", "-o", "--config", "--set", "--seed", "--overwrite", "--threads", "-q"}}};
   for (const auto& [command, names] : options) {

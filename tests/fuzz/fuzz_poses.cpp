@@ -3,7 +3,7 @@
 #include <sstream>
 
 #include "FuzzTarget.h"
-#include "hoctomap/mrpt_io/PoseTrack.h"
+#include "hoctomap/io/PoseTrack.h"
 
 namespace hoctomap::fuzz {
 

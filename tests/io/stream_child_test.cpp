@@ -133,7 +133,7 @@ TEST(PipeSource, NonsenseFromTheHelperIsAnInputError) {
 }
 
 TEST(PipeSource, AnEarlyEndIsAnInputError) {
-  const FakeHelper helper("printf 'HOCTSCAN\\002\\000\\000\\000'");
+  const FakeHelper helper("printf 'HOCTSCAN\\003\\000\\000\\000'");
   EXPECT_NE(errorOfPipeSource().find("ends before its end"), std::string::npos);
 }
 

@@ -41,12 +41,18 @@ Bytes bytesOf(const std::vector<StreamMessage>& messages) {
 DepthScan depthScan(test::Rng& rng) {
   DepthScan scan{3, 12.5, "RGBD", test::randomPose(rng, 2.0), {{4, 3, 5.25, 5.5, 1.5, 1.0}, {}}};
   for (int i = 0; i < 12; ++i) scan.image.depth.push_back(static_cast<float>(test::uniform(rng, 0.0, 4.0)));
+  scan.colour = {2, 1, {1, 2, 3, 4, 5, 6}};
   return scan;
 }
 
 std::vector<StreamMessage> oneOfEach() {
   test::Rng rng(5);
-  CloudScan cloud{4, 13.5, "lidar", test::randomPose(rng, 2.0), {{1.F, 2.F, 3.F}, {-1.F, 0.5F, 0.F}}};
+  CloudScan cloud{4,
+                  13.5,
+                  "lidar",
+                  test::randomPose(rng, 2.0),
+                  {{1.F, 2.F, 3.F}, {-1.F, 0.5F, 0.F}},
+                  {{255, 0, 7}, {1, 2, 3}}};
   StreamHeader header{
       9, 8, "robot poses 'groundtruth'", {"abc", "def"}, {{"RGBD", "CObservation3DRangeScan", 9, 4, 3}}};
   return {header,
@@ -85,6 +91,9 @@ TEST(ScanStream, EveryMessageComesBack) {
   const auto& sent_depth = std::get<DepthScan>(sent[1]);
   EXPECT_EQ(depth.image.depth, sent_depth.image.depth);
   EXPECT_EQ(depth.image.camera.fy, 5.5);
+  EXPECT_EQ(depth.colour.width, 2);
+  EXPECT_EQ(depth.colour.rgb, sent_depth.colour.rgb);
+  EXPECT_EQ(std::get<CloudScan>(got[2]).colours, std::get<CloudScan>(sent[2]).colours);
   EXPECT_EQ(matrix(depth.world_T_sensor), matrix(sent_depth.world_T_sensor));
   EXPECT_EQ(std::get<CloudScan>(got[2]).sensor_points, std::get<CloudScan>(sent[2]).sensor_points);
   EXPECT_EQ(std::get<ObjectMotion>(got[3]).node, NodeId{17});

@@ -2,7 +2,7 @@
 #include <gtest/gtest.h>
 
 #include "hoctomap/geometry/Errors.h"
-#include "hoctomap/mrpt_io/PoseTrack.h"
+#include "hoctomap/io/PoseTrack.h"
 #include "log_objects.h"
 
 namespace hoctomap {

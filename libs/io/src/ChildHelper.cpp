@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <unistd.h>
 
+#include <cctype>
 #include <cstdlib>
 #include <system_error>
 
@@ -11,7 +12,11 @@ namespace hoctomap {
 
 namespace {
 
-constexpr const char* kHelperName = "hoctomap-mrpt";
+/// hoctomap-mrpt -> HOCTOMAP_MRPT
+std::string variableOf(std::string name) {
+  for (char& c : name) c = c == '-' ? '_' : static_cast<char>(std::toupper(static_cast<unsigned char>(c)));
+  return name;
+}
 
 bool isProgram(const std::filesystem::path& path) {
   std::error_code ignored;
@@ -20,24 +25,24 @@ bool isProgram(const std::filesystem::path& path) {
 
 }  // namespace
 
-std::filesystem::path findHelper() {
-  if (const char* set = std::getenv("HOCTOMAP_MRPT"); set != nullptr && *set != '\0') {
+std::filesystem::path findHelper(const std::string& name) {
+  const std::string variable = variableOf(name);
+  if (const char* set = std::getenv(variable.c_str()); set != nullptr && *set != '\0') {
     if (isProgram(set)) return set;
-    throw FileError(std::string("HOCTOMAP_MRPT=") + set + " is not a program");
+    throw FileError(variable + "=" + set + " is not a program");
   }
   std::error_code error;
   const auto here = std::filesystem::read_symlink("/proc/self/exe", error).parent_path();
-  std::vector<std::filesystem::path> places{here / kHelperName,
-                                            here.parent_path() / "libexec" / "hoctomap" / kHelperName};
+  std::vector<std::filesystem::path> places{here / name, here.parent_path() / "libexec" / "hoctomap" / name};
   // Build tree: programs lie in apps/NAME/NAME, tests in tests/LIBRARY/.
   for (auto root = here; root.has_relative_path() && places.size() < 6; root = root.parent_path())
-    places.push_back(root / "apps" / kHelperName / kHelperName);
+    places.push_back(root / "apps" / name / name);
   for (const auto& place : places) {
     if (isProgram(place)) return place;
   }
-  throw FileError(std::string("cannot find the log reader ") + kHelperName + " beside the program, in " +
-                  places[1].parent_path().lexically_normal().string() +
-                  " or in a build tree; set HOCTOMAP_MRPT");
+  throw FileError("cannot find the helper program " + name + " beside the program, in " +
+                  places[1].parent_path().lexically_normal().string() + " or in a build tree; set " +
+                  variable);
 }
 
 int runHelper(const std::vector<std::string>& arguments) {

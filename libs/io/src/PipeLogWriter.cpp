@@ -14,14 +14,21 @@ std::string unitArgument(double unit) {
   return "--depth-unit=" + std::string(buffer.data(), end);
 }
 
+std::vector<std::string> arguments(const std::filesystem::path& log, double unit, bool external_images) {
+  std::vector<std::string> words{"write-log", unitArgument(unit), "--report-on-stdout"};
+  if (external_images) words.emplace_back("--external-images");
+  words.emplace_back("--");
+  words.push_back(log.string());
+  return words;
+}
+
 }  // namespace
 
-PipeLogWriter::PipeLogWriter(const std::filesystem::path& log, double depth_unit_m)
-    : child_(
-          {.program = findHelper(),
-           .arguments = {"write-log", unitArgument(depth_unit_m), "--report-on-stdout", "--", log.string()},
-           .input = ChildProcess::Stream::pipe,
-           .output = ChildProcess::Stream::pipe}),
+PipeLogWriter::PipeLogWriter(const std::filesystem::path& log, double depth_unit_m, bool external_images)
+    : child_({.program = findHelper(),
+              .arguments = arguments(log, depth_unit_m, external_images),
+              .input = ChildProcess::Stream::pipe,
+              .output = ChildProcess::Stream::pipe}),
       writer_(child_.inputFd()) {}
 
 void PipeLogWriter::write(const StreamMessage& message) {

@@ -18,9 +18,12 @@ static_assert(std::endian::native == std::endian::little, "the scan stream is li
 static_assert(std::numeric_limits<double>::is_iec559 && std::numeric_limits<float>::is_iec559);
 
 inline constexpr char kMagic[8] = {'H', 'O', 'C', 'T', 'S', 'C', 'A', 'N'};
-inline constexpr std::uint32_t kVersion = 2;
+inline constexpr std::uint32_t kVersion = 3;
 inline constexpr std::size_t kPreambleBytes = sizeof(kMagic) + sizeof(kVersion);
 inline constexpr std::size_t kFrameHeaderBytes = 32;
+
+inline constexpr std::size_t kBytesAColour = 3;
+static_assert(sizeof(std::array<std::uint8_t, 3>) == kBytesAColour);
 
 enum class FrameType : std::uint32_t {
   header = 1,

@@ -17,7 +17,7 @@ namespace {
 /// The longest payload that a message within `limits` can have.
 std::uint64_t maxPayload(const StreamLimits& limits) {
   const std::uint64_t texts = 4 * std::uint64_t{limits.max_string_bytes} + 4096;
-  return limits.max_points * sizeof(Eigen::Vector3f) + texts;
+  return limits.max_points * (sizeof(Eigen::Vector3f) + kBytesAColour) + texts;
 }
 
 StreamHeader headerFrom(Reader& in, const StreamLimits& limits) {
@@ -51,6 +51,20 @@ Scan scanHead(Reader& in) {
   return m;
 }
 
+ColourImage colourFrom(Reader& in, const StreamLimits& limits) {
+  const std::uint64_t width = in.get<std::uint32_t>();
+  const std::uint64_t height = in.get<std::uint32_t>();
+  if ((width == 0) != (height == 0)) throw InputError("scan stream: an empty picture");
+  if (height > 0 && width > limits.max_points / height)
+    throw LimitError("scan stream: a picture has too many pixels");
+  if (in.left() != width * height * kBytesAColour)
+    throw InputError("scan stream: a picture of the wrong size");
+  ColourImage colour{static_cast<int>(width), static_cast<int>(height), {}};
+  colour.rgb.resize(in.left());
+  in.bytes(colour.rgb.data(), colour.rgb.size());
+  return colour;
+}
+
 DepthScan depthFrom(Reader& in, const StreamLimits& limits) {
   auto m = scanHead<DepthScan>(in);
   const std::uint64_t width = in.get<std::uint32_t>();
@@ -62,10 +76,10 @@ DepthScan depthFrom(Reader& in, const StreamLimits& limits) {
   camera.height = static_cast<int>(height);
   for (double* value : {&camera.fx, &camera.fy, &camera.cx, &camera.cy}) *value = in.finite();
   if (camera.fx <= 0.0 || camera.fy <= 0.0) throw InputError("scan stream: a focal length is not positive");
-  if (in.left() != width * height * sizeof(float))
-    throw InputError("scan stream: an image of the wrong size");
+  if (in.left() < width * height * sizeof(float)) throw InputError("scan stream: an image of the wrong size");
   m.image.depth.resize(width * height);
   in.bytes(m.image.depth.data(), width * height * sizeof(float));
+  m.colour = colourFrom(in, limits);
   return m;
 }
 
@@ -73,10 +87,14 @@ CloudScan cloudFrom(Reader& in, const StreamLimits& limits) {
   auto m = scanHead<CloudScan>(in);
   const auto count = in.get<std::uint64_t>();
   if (count > limits.max_points) throw LimitError("scan stream: a cloud has too many points");
-  if (in.left() != count * sizeof(Eigen::Vector3f))
-    throw InputError("scan stream: a cloud of the wrong size");
+  if (in.left() < count * sizeof(Eigen::Vector3f)) throw InputError("scan stream: a cloud of the wrong size");
   m.sensor_points.resize(count);
   in.bytes(m.sensor_points.data(), count * sizeof(Eigen::Vector3f));
+  const auto colours = in.get<std::uint64_t>();
+  if ((colours != 0 && colours != count) || in.left() != colours * kBytesAColour)
+    throw InputError("scan stream: colours of the wrong number");
+  m.colours.resize(colours);
+  in.bytes(m.colours.data(), colours * kBytesAColour);
   return m;
 }
 

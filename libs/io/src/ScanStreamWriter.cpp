@@ -84,6 +84,12 @@ struct Encoder {
     out.put(static_cast<std::uint32_t>(camera.height));
     for (const double value : {camera.fx, camera.fy, camera.cx, camera.cy}) out.put(value);
     out.bytes(m.image.depth.data(), m.image.depth.size() * sizeof(float));
+    if (m.colour.rgb.size() !=
+        3 * static_cast<std::size_t>(m.colour.width) * static_cast<std::size_t>(m.colour.height))
+      throw std::invalid_argument("scan stream: a picture of the wrong size");
+    out.put(static_cast<std::uint32_t>(m.colour.width));
+    out.put(static_cast<std::uint32_t>(m.colour.height));
+    out.bytes(m.colour.rgb.data(), m.colour.rgb.size());
     return FrameType::depth;
   }
   FrameType operator()(const CloudScan& m) const {
@@ -91,6 +97,10 @@ struct Encoder {
     scanHead(m);
     out.put(std::uint64_t{m.sensor_points.size()});
     out.bytes(m.sensor_points.data(), m.sensor_points.size() * sizeof(Eigen::Vector3f));
+    if (!m.colours.empty() && m.colours.size() != m.sensor_points.size())
+      throw std::invalid_argument("scan stream: points and colours differ in number");
+    out.put(std::uint64_t{m.colours.size()});
+    out.bytes(m.colours.data(), m.colours.size() * kBytesAColour);
     return FrameType::cloud;
   }
   FrameType operator()(const ObjectMotion& m) const {

@@ -8,7 +8,7 @@
 
 #include "ObservationReader.h"
 #include "ScanSelector.h"
-#include "hoctomap/mrpt_io/PoseTrack.h"
+#include "hoctomap/io/PoseTrack.h"
 
 namespace hoctomap {
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "hoctomap/mrpt_io/LogWriter.h"
 
+#include <mrpt/maps/CColouredPointsMap.h>
 #include <mrpt/maps/CSimplePointsMap.h>
 #include <mrpt/obs/CObservation3DRangeScan.h>
 #include <mrpt/obs/CObservationPointCloud.h>
@@ -11,6 +12,7 @@
 #include <limits>
 
 #include "GzFileOutput.h"
+#include "LogImages.h"
 #include "hoctomap/geometry/Errors.h"
 
 namespace hoctomap {
@@ -18,7 +20,8 @@ namespace hoctomap {
 struct LogWriter::Output {
   GzFileOutput file;
   double unit;
-  std::optional<TruthPose> truth;  // the last one: scans of its time hang on it
+  std::unique_ptr<LogImages> images;  // none: images stand in the log
+  std::optional<TruthPose> truth;     // the last one: scans of its time hang on it
 
   /// Pose of the sensor on the robot, so that truth (+) sensorPose is the sensor in the world.
   [[nodiscard]] Pose baseTSensor(double stamp, const Pose& world_T_sensor) const {
@@ -59,6 +62,47 @@ void setCamera(mrpt::obs::CObservation3DRangeScan& observation, const PinholeCam
   observation.cameraParamsIntensity = parameters;
 }
 
+/// The picture is in register with the range image, perhaps of another size.
+void setPicture(mrpt::obs::CObservation3DRangeScan& observation, const ColourImage& colour) {
+  using mrpt::img::CImage;
+  const auto columns = static_cast<unsigned>(colour.width);
+  const auto rows = static_cast<unsigned>(colour.height);
+  CImage image(columns, rows, mrpt::img::CH_RGB);
+  const std::uint8_t* from = colour.rgb.data();
+  for (unsigned v = 0; v < rows; ++v) {
+    auto* to = image.ptrLine<std::uint8_t>(v);
+    for (unsigned u = 0; u < columns; ++u, from += 3, to += 3) {  // MRPT's order is blue, green, red
+      to[0] = from[2];
+      to[1] = from[1];
+      to[2] = from[0];
+    }
+  }
+  observation.hasIntensityImage = true;
+  observation.intensityImage = std::move(image);
+  // Both cameras in one place: MRPT's turn from x forward to z forward, and nothing else.
+  observation.relativePoseIntensityWRTDepth = {0.0, 0.0, 0.0, -M_PI_2, 0.0, -M_PI_2};
+  auto& parameters = observation.cameraParamsIntensity;
+  parameters.scaleToResolution(columns, rows);
+}
+
+mrpt::maps::CPointsMap::Ptr pointsMap(const CloudScan& m) {
+  if (m.colours.empty()) {
+    const auto points = mrpt::maps::CSimplePointsMap::Create();
+    points->reserve(m.sensor_points.size());
+    for (const auto& p : m.sensor_points) points->insertPointFast(p.x(), p.y(), p.z());
+    return points;
+  }
+  const auto points = mrpt::maps::CColouredPointsMap::Create();
+  points->resize(m.sensor_points.size());
+  const auto share = [](std::uint8_t value) { return static_cast<float>(value) / 255.0F; };
+  for (std::size_t i = 0; i < m.sensor_points.size(); ++i) {
+    const auto& p = m.sensor_points[i];
+    const auto& c = m.colours[i];
+    points->setPointRGB(i, p.x(), p.y(), p.z(), share(c[0]), share(c[1]), share(c[2]));
+  }
+  return points;
+}
+
 }  // namespace
 
 struct LogWriter::Encoder {
@@ -87,26 +131,26 @@ struct LogWriter::Encoder {
       for (std::size_t u = 0; u < width; ++u)
         scan.rangeImage(v, u) = steps(m.image.depth[v * width + u], out.unit);
     }
+    if (!m.colour.empty()) setPicture(scan, m.colour);
+    if (out.images) out.images->moveOut(scan);
     out.add(scan);
   }
   void operator()(const CloudScan& m) const {
     mrpt::obs::CObservationPointCloud scan;
     label(scan, m.stamp, m.sensor);
     scan.sensorPose = out.baseTSensor(m.stamp, m.world_T_sensor);
-    const auto points = mrpt::maps::CSimplePointsMap::Create();
-    points->reserve(m.sensor_points.size());
-    for (const auto& p : m.sensor_points) points->insertPointFast(p.x(), p.y(), p.z());
-    scan.pointcloud = points;
+    scan.pointcloud = pointsMap(m);
     out.add(scan);
   }
   template <class Other>
   void operator()(const Other&) const {}
 };
 
-LogWriter::LogWriter(const std::filesystem::path& log, double depth_unit_m) {
+LogWriter::LogWriter(const std::filesystem::path& log, double depth_unit_m, bool external_images) {
   if (!std::isfinite(depth_unit_m) || depth_unit_m <= 0.0)
     throw ConfigError("the depth unit must be positive");
-  output_.reset(new Output{GzFileOutput(log), depth_unit_m, std::nullopt});
+  auto images = external_images ? std::make_unique<LogImages>(log) : nullptr;
+  output_.reset(new Output{GzFileOutput(log), depth_unit_m, std::move(images), std::nullopt});
 }
 
 LogWriter::~LogWriter() = default;
@@ -116,7 +160,14 @@ void LogWriter::write(const StreamMessage& message) {
 }
 
 void LogWriter::finish() {
-  output_->file.commit();
+  LogImages* images = output_->images.get();
+  if (images) images->commit();
+  try {
+    output_->file.commit();
+  } catch (...) {
+    if (images) images->withdraw();
+    throw;
+  }
 }
 
 }  // namespace hoctomap

@@ -87,10 +87,10 @@ class ChildProcess {
   UniqueFd output_;
 };
 
-/// The helper program `hoctomap-mrpt`: $HOCTOMAP_MRPT if set; else beside this program, in
-/// `../libexec/hoctomap/`, or in the build tree that this program lies in.
+/// A helper program, `hoctomap-mrpt` or `hoctomap-cloud`: $HOCTOMAP_MRPT or $HOCTOMAP_CLOUD if set; else
+/// beside this program, in `../libexec/hoctomap/`, or in the build tree that this program lies in.
 /// @throws FileError naming the places looked at.
-[[nodiscard]] std::filesystem::path findHelper();
+[[nodiscard]] std::filesystem::path findHelper(const std::string& name = "hoctomap-mrpt");
 
 /// Runs a verb of the helper with this program's own stdin, stdout and stderr.
 /// @return its exit code, 128 + n if signal n killed it

@@ -16,8 +16,10 @@ namespace hoctomap {
 class PipeLogWriter {
  public:
   /// `depth_unit_m`: metres per step of the 16-bit range images; depths beyond 65535 steps are no return.
+  /// `external_images`: as files in `LOG_Images` beside the log.
   /// @throws FileError if the helper cannot be started.
-  explicit PipeLogWriter(const std::filesystem::path& log, double depth_unit_m = 0.001);
+  explicit PipeLogWriter(const std::filesystem::path& log, double depth_unit_m = 0.001,
+                         bool external_images = false);
 
   /// DepthScan, CloudScan, TruthPose and ObjectMotion.
   /// @throws FileError or what else the helper reports.

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <string>
 #include <variant>
@@ -14,7 +15,7 @@ namespace hoctomap {
 
 // Scans between two programs: what `hoctomap-mrpt read` sends and `hoctomap-mrpt write-log` takes.
 //
-// Format, version 1, little endian throughout:
+// Format, version 3, little endian throughout:
 //   stream  = "HOCTSCAN" u32 version  frame*
 //   frame   = u32 type  u32 bytes  u32 log  u32 zero  u64 object  u64 offset  payload[bytes]
 //   string  = u32 bytes  bytes          pose = f64[12], the upper three rows of the 4x4 matrix, row-major
@@ -22,7 +23,9 @@ namespace hoctomap {
 //                   string class  u64 scans  u32 width  u32 height }[n]
 //   type 2 depth  : u64 scan  f64 stamp  string sensor  pose world_T_sensor  u32 width  u32 height
 //                   f64 fx fy cx cy  f32 depth[height * width], row-major
+//                   u32 width  u32 height  u8 rgb[height * width][3] (0 x 0: no colours)
 //   type 3 cloud  : u64 scan  f64 stamp  string sensor  pose world_T_sensor  u64 n  f32 xyz[n][3]
+//                   u64 n or 0  u8 rgb[n][3]
 //   type 4 motion : f64 stamp  u32 node  pose t
 //   type 5 skipped: u64 scan  f64 stamp  string reason
 //   type 6 warning: string text         type 7 truth: f64 stamp  string label  pose world_T_base
@@ -54,12 +57,22 @@ struct StreamHeader {
   std::vector<Sensor> sensors;
 };
 
+/// A picture beside the range image, for writing logs: what it shows is in register with it, each with its
+/// own size. Row-major, red, green, blue.
+struct ColourImage {
+  int width = 0;
+  int height = 0;
+  std::vector<std::uint8_t> rgb;
+  [[nodiscard]] bool empty() const { return rgb.empty(); }
+};
+
 struct DepthScan {
   std::uint64_t scan = 0;
   double stamp = 0.0;  ///< seconds since the epoch
   std::string sensor;
   Pose world_T_sensor;
   DepthImage image;
+  ColourImage colour{};  ///< may be empty; logs are read without it
 };
 
 struct CloudScan {
@@ -68,6 +81,7 @@ struct CloudScan {
   std::string sensor;
   Pose world_T_sensor;
   PointCloud sensor_points;
+  std::vector<std::array<std::uint8_t, 3>> colours{};  ///< one a point, or none; logs are read without them
 };
 
 struct StreamWarning {

@@ -4,7 +4,7 @@
 #include <limits>
 
 #include "hoctomap/geometry/Errors.h"
-#include "hoctomap/mrpt_io/PoseTrack.h"
+#include "hoctomap/io/PoseTrack.h"
 #include "support/RandomScenes.h"
 
 namespace hoctomap {

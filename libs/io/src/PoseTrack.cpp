@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "hoctomap/mrpt_io/PoseTrack.h"
+#include "hoctomap/io/PoseTrack.h"
 
 #include <algorithm>
 #include <cmath>
