@@ -31,14 +31,27 @@ void setState(MapNode& node, const NodeRecord& record) {
   node.confirmation = record.confirmation;
 }
 
-MapHierarchy readHierarchy(const std::filesystem::path& directory, const Manifest& manifest) {
+/// `damage`: see MapReadOptions
+NodeMap readIntact(const std::filesystem::path& directory, const NodeRecord& node,
+                   std::vector<Damage>* damage) {
+  try {
+    return readNodeMap(directory, node);
+  } catch (const MapError& problem) {
+    if (damage == nullptr) throw;
+    damage->push_back({node.ot.path, problem.what()});
+    return {node.resolution, node.occupancy};
+  }
+}
+
+MapHierarchy readHierarchy(const std::filesystem::path& directory, const Manifest& manifest,
+                           std::vector<Damage>* damage) {
   const NodeRecord& root = manifest.nodes.front();
-  MapHierarchy hierarchy(root.label, readNodeMap(directory, root));
+  MapHierarchy hierarchy(root.label, readIntact(directory, root, damage));
   setState(hierarchy.root(), root);
   for (const NodeRecord& record : manifest.nodes) {
     if (!record.parent) continue;
-    setState(hierarchy.restore(record.id, record.label, readNodeMap(directory, record), record.parent_T_node,
-                               *record.parent),
+    setState(hierarchy.restore(record.id, record.label, readIntact(directory, record, damage),
+                               record.parent_T_node, *record.parent),
              record);
   }
   hierarchy.setNextId(manifest.next_id);
@@ -113,7 +126,7 @@ Manifest readManifest(const std::filesystem::path& directory, std::optional<std:
 
 StoredMap readMap(const std::filesystem::path& directory, const MapReadOptions& options) {
   Manifest manifest = readManifest(directory, options.at_scan);
-  MapHierarchy hierarchy = readHierarchy(directory, manifest);
+  MapHierarchy hierarchy = readHierarchy(directory, manifest, options.damage);
   const bool all_state = options.to_go_on || options.to_edit;
   if (all_state) addWaiting(directory, manifest, hierarchy);
   if (options.to_go_on) holdBack(hierarchy);

@@ -9,6 +9,7 @@
 
 #include "hoctomap/hierarchy/MapHierarchy.h"
 #include "hoctomap/io/Manifest.h"
+#include "hoctomap/io/MapCheck.h"
 #include "hoctomap/mapping/SeamVotes.h"
 #include "hoctomap/mapping/UpdateReport.h"
 
@@ -19,6 +20,8 @@ struct MapReadOptions {
   bool removed = false;                  ///< whether to load the octrees of removed nodes, too
   bool to_go_on = false;                 ///< as the mapper had it before the end of the log
   bool to_edit = false;                  ///< as it is, with all that a commit needs: what waits, and seams
+  /// If given: a node whose file is damaged is left without voxels and named here, instead of an error.
+  std::vector<Damage>* damage = nullptr;
 };
 
 /// A map of a directory. Writing it again gives the same bytes.
