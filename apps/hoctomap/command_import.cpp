@@ -18,7 +18,9 @@ namespace hoctomap {
 
 namespace {
 
-constexpr double kMaxSkippedShare = 0.05;  // as [limits] max_skipped_share of `build`
+const CLI::Range kDepthFactors(1e-3, 1e9);  // steps a metre
+const CLI::Range kRates(1e-3, 1e6);         // Hz
+constexpr double kMaxSkippedShare = 0.05;   // as [limits] max_skipped_share of `build`
 
 /// What the three formats have in common.
 struct ImportOptions {
@@ -33,6 +35,7 @@ struct ImportOptions {
 
 /// Turns the data set's world into one whose z is up, and says what by.
 Pose levelWorld(Dataset& dataset, const ImportOptions& options, std::string& said) {
+  if (!std::isfinite(options.floor)) throw ConfigError("--floor: must be finite");
   Pose level_T_world;
   if (!options.up.empty()) {
     try {
@@ -160,7 +163,7 @@ void addTum(CLI::App& import_command, Action& action) {
       ->add_option("--depth-factor", options->depth_factor,
                    "steps of the depth images a metre (default: 5000)")
       ->type_name("N")
-      ->check(CLI::PositiveNumber);
+      ->check(kDepthFactors);
   format->add_option("--poses", options->tum.poses, "trajectory (default: groundtruth.txt)")
       ->type_name("FILE");
   addMaxGap(*format, options->tum.max_gap_s);
@@ -195,10 +198,10 @@ void addFrames(CLI::App& import_command, Action& action) {
   format->add_option("--depth-factor", options->frames.depth_factor, "steps of the depth images a metre")
       ->type_name("N")
       ->capture_default_str()
-      ->check(CLI::PositiveNumber);
+      ->check(kDepthFactors);
   format->add_option("--rate", options->frames.rate_hz, "frames a second: the files say no times")
       ->capture_default_str()
-      ->check(CLI::PositiveNumber);
+      ->check(kRates);
   format->callback([options, &action] {
     action = [options] {
       options->frames.folder = options->source;
@@ -234,7 +237,7 @@ void addPcd(CLI::App& import_command, Action& action) {
   addMaxGap(*format, options->clouds.max_gap_s);
   format->add_option("--rate", options->clouds.rate_hz, "clouds a second where no times are given")
       ->capture_default_str()
-      ->check(CLI::PositiveNumber);
+      ->check(kRates);
   format->callback([options, &action] {
     action = [options] {
       options->clouds.folder = options->source;

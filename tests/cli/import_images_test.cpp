@@ -5,6 +5,7 @@
 #include "DatasetFolders.h"
 #include "TableLogs.h"
 #include "hoctomap/io/LabelPng.h"
+#include "hoctomap/io/PoseTrack.h"
 #include "support/SharedData.h"
 
 namespace hoctomap {
@@ -222,6 +223,46 @@ TEST(ImportTum, TheKitchenGivesTheObjectsOfItsRawlog) {
           << label << " " << node.record.id.value;
     }
   }
+}
+
+TEST(ImportTum, TheKitchenIsLevelledFromAnyWorld) {
+  const auto data = test::sharedData();
+  if (!data) GTEST_SKIP() << "no shared data";
+  const TemporaryFolder folder;
+  const std::string kitchen = *data / "tum_format/rgbd_dataset_redkitchen";
+  const auto importKitchen = [&](const std::string& log, const std::vector<std::string>& more) {
+    std::vector<std::string> arguments{"import", "tum", kitchen, "-q", "-o", folder / log};
+    arguments.insert(arguments.end(), more.begin(), more.end());
+    EXPECT_EQ(test::hoctomap(arguments).exit_code, 0);
+    return test::scansOf(folder / log);
+  };
+  // The same trajectory in a world that lies on its side.
+  const PoseTrack track = readPoseFile(kitchen + "/groundtruth.txt");
+  const Pose turn(1.0, -2.0, 3.0, 0.7, 1.1, -2.0);
+  const auto upright = importKitchen("upright.rawlog", {});
+  std::string poses;
+  for (const auto& z : upright) poses += test::tumRow(z.stamp, turn + *track.at(z.stamp, 1.0));
+  test::writeFile(folder / "turned.txt", poses);
+  const auto levelled = importKitchen("levelled.rawlog", {"--poses", folder / "turned.txt", "--level"});
+  ASSERT_EQ(levelled.size(), upright.size());
+  const auto upOf = [](const Measurement& z) {
+    return Eigen::Vector3d(toIsometry(z.world_T_sensor).linear().row(2));  // in the sensor's frame
+  };
+  for (std::size_t k = 0; k < upright.size(); ++k)
+    EXPECT_GT(upOf(upright[k]).dot(upOf(levelled[k])), std::cos(0.5 * M_PI / 180.0)) << k;
+}
+
+TEST(ImportTum, WrongOptionsAreExit2) {
+  const TemporaryFolder folder;
+  test::writeTumFolder(folder / "tum", 1);
+  const std::vector<std::vector<std::string>> wrong{
+      {"--intrinsics", "1,2,3"},   {"--intrinsics", "freiburg4"},
+      {"--depth-factor", "0"},     {"--depth-factor", "inf"},
+      {"--up", "0,0,0"},           {"--up", "nan,0,1"},
+      {"--floor", "nan"},          {"--images", "somewhere"},
+      {"--up", "0,0,1", "--level"}};
+  for (const auto& more : wrong) EXPECT_EQ(importTum(folder, more).exit_code, 2) << more[0] << " " << more[1];
+  EXPECT_FALSE(std::filesystem::exists(folder / "a.rawlog"));
 }
 
 TEST(ImportFrames, PosesAndImagesComeFromFilesOfOneName) {
