@@ -66,7 +66,8 @@ TEST(ImportPcd, EveryEncodingOfAPcdAtItsTimeInATrajectory) {
     test::writeFile(folder / "text.pcd", pcdText(static_cast<float>(k)));
     const auto converted =
         test::runProgram("pcl_convert_pcd_ascii_binary", {folder / "text.pcd", file, std::to_string(k)});
-    ASSERT_EQ(converted.exit_code, 0) << "pcl-tools: " << converted.err;
+    if (converted.exit_code == 127) GTEST_SKIP() << "pcl-tools is not installed";
+    ASSERT_EQ(converted.exit_code, 0) << converted.err;
   }
   for (double stamp = 99.97; stamp < 100.3; stamp += 0.05)
     poses += test::tumRow(stamp, test::worldTOptical(stamp));

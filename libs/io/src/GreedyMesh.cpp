@@ -28,7 +28,8 @@ std::set<Cell> cellsOf(const NodeMap& map) {
 /// Takes the rectangle that begins at the first face out of the plane: {row, column} of its first and behind
 /// its last face.
 std::array<std::array<int, 2>, 2> takeRectangle(Plane& plane) {
-  const auto [row, column] = *plane.begin();
+  const int row = plane.begin()->at(0);
+  const int column = plane.begin()->at(1);
   int end_column = column;
   while (plane.contains({row, end_column})) ++end_column;
   const auto full = [&](int r) {
@@ -60,15 +61,16 @@ SurfaceMesh greedyMesh(const NodeMap& map) {
         beside[axis] += side;
         if (!cells.contains(beside)) planes[cell[axis]].insert({cell[v], cell[u]});
       }
-      for (auto& [level, plane] : planes) {
+      for (auto& [number, plane] : planes) {
+        const int level = number + (side > 0 ? 1 : 0);
         while (!plane.empty()) {
           const auto [first, last] = takeRectangle(plane);
           const auto corner = [&](int at_u, int at_v) {
             Eigen::Vector3d p;
-            p[static_cast<Eigen::Index>(axis)] = level + (side > 0 ? 1 : 0);
+            p[static_cast<Eigen::Index>(axis)] = level;
             p[static_cast<Eigen::Index>(u)] = at_u;
             p[static_cast<Eigen::Index>(v)] = at_v;
-            mesh.vertices.push_back((map.resolution() * p).cast<float>());
+            mesh.vertices.emplace_back((map.resolution() * p).cast<float>());
           };
           const auto begin = static_cast<std::uint32_t>(mesh.vertices.size());
           corner(first[1], first[0]);

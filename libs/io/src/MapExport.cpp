@@ -80,7 +80,7 @@ std::vector<Damage> exportOctrees(const std::filesystem::path& map, const Manife
 
 std::vector<Damage> exportMapCollection(const std::filesystem::path& map, const Manifest& manifest,
                                         const std::filesystem::path& folder) {
-  const auto damage = exportOctrees(map, manifest, folder, OctreeFormat::bt);
+  std::vector<Damage> damage = exportOctrees(map, manifest, folder, OctreeFormat::bt);
   std::string index = "# hoctomap: nodes of a hierarchy, for OctoMap's MapCollection\n";
   for (const NodeRecord& node : manifest.nodes) {
     const std::string file = padded(node.id.value, kDigits) + ".bt";
