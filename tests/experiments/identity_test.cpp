@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <gtest/gtest.h>
 
+#include "hoctomap/config/Settings.h"
 #include "identity/IdentityRun.h"
 
 namespace hoctomap {
@@ -74,6 +75,15 @@ TEST(Identity, ReorderedScansKeepThePlacesInTheLog) {
     all.insert(shuffled[k].sensor);
   }
   EXPECT_EQ(all.size(), scans.size());
+}
+
+TEST(Identity, OtherSidesOfABoxAreNoTurnByAHalf) {
+  // A box that is seen from one side, then from the other, which a turn would put where the first was.
+  const SeenScene seen = see(makeCrowdedScene(19, 10));
+  const MappedLog map =
+      mapScans(reordered(seen.scans, ScanOrder::reverse, 0), loadSettings(std::nullopt, {}));
+  for (const std::string& event : map.events)
+    EXPECT_EQ(event.find("reidentified"), std::string::npos) << event;
 }
 
 TEST(CrowdedScene, OfTheSameSeedIsTheSame) {

@@ -104,6 +104,40 @@ TEST(Identity, ASegmentThatBridgesTwoNodesIsDivided) {
   EXPECT_EQ(m.h().node(NodeId{3}).last_scan, 1U);
 }
 
+/// A level face: a point every 3 mm.
+PointCloud level(double x_min, double x_max, double y_min, double y_max, double z) {
+  PointCloud points;
+  for (double x = x_min; x < x_max; x += 0.003) {
+    for (double y = y_min; y < y_max; y += 0.003) points.push_back(Eigen::Vector3d(x, y, z).cast<float>());
+  }
+  return points;
+}
+
+/// The front of one thing seen from ahead, the back of one seen from behind, and what stands on both.
+std::size_t objectsUnderLoad(double height_of_back) {
+  const PointCloud load_top = level(0.2, 0.26, -0.04, 0.04, 0.9);
+  const Piece front_side{Structure::cluster,
+                         both(front(-0.1, 0.1, 0.7, 0.81, 0.3), level(0.27, 0.3, -0.1, 0.1, 0.81))};
+  const Piece back_side{Structure::cluster, both(front(-0.1, 0.1, 0.7, height_of_back, 0.16),
+                                                 level(0.16, 0.19, -0.1, 0.1, height_of_back))};
+  const Piece load_ahead{Structure::cluster, both(front(-0.04, 0.04, 0.815, 0.9, 0.26), load_top)};
+  const Piece load_behind{Structure::cluster, both(front(-0.04, 0.04, 0.815, 0.9, 0.2), load_top)};
+  Mapper m(bySurface());
+  for (std::uint64_t k = 0; k < 4; ++k) {
+    for (const NodeId id : m.h().ids()) (*m.evidence)[id] = seen(true);
+    m.integrate(k % 2 == 0 ? Scan(k, {kFloor, kTable, front_side, load_ahead}, {2.0, 0.0, 1.2})
+                           : Scan(k, {kFloor, kTable, back_side, load_behind}, {-2.0, 0.0, 1.2}));
+  }
+  const auto ids = m.h().ids();
+  return static_cast<std::size_t>(std::count_if(
+      ids.begin(), ids.end(), [&](NodeId id) { return m.h().node(id).label() == labels::object; }));
+}
+
+TEST(Identity, SidesAsHighThatCarryTheSameThingAreOne) {
+  EXPECT_EQ(objectsUnderLoad(0.81), 2U);
+  EXPECT_EQ(objectsUnderLoad(0.76), 3U) << "one of them ends lower";
+}
+
 TEST(SeamVotes, CountScansInWhateverOrderTheyCome) {
   const PointCloud whole = both(kLeft, kRight);
   const std::vector<const PointCloud*> apart{&kLeft, &kRight};

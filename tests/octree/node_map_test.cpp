@@ -158,6 +158,30 @@ TEST(NodeMap, GiveLeavesTheTreeThatStockOctomapWouldMakeOfTheRest) {
   }
 }
 
+TEST(NodeMap, CedesWhatOthersShowAsOftenAsItWasHitThere) {
+  const PointCloud own{{0.05F, 0.05F, 0.05F}, {0.05F, 0.95F, 0.05F}};
+  NodeMap map = mapOf(own, 0.1);
+  Beams again;
+  again.origin = Eigen::Vector3f(2.0F, 0.1F, 0.1F);
+  again.hits = own;
+  map.update(*makeReferenceScanUpdate(), again);
+  const VoxelCounts before = map.countVoxels();
+  const auto at = [&](float y) { return map.tree().search(0.05, static_cast<double>(y), 0.05); };
+  const float of_two_hits = at(0.05F)->getLogOdds();
+
+  map.cede({{0.05F, 0.15F, 0.05F}, {0.06F, 0.14F, 0.05F}});  // beside the first voxel: once a scan
+  ASSERT_NE(at(0.05F), nullptr);
+  EXPECT_FLOAT_EQ(at(0.05F)->getLogOdds(), of_two_hits - map.tree().getProbHitLog());
+  EXPECT_FLOAT_EQ(at(0.95F)->getLogOdds(), of_two_hits);
+
+  map.cede({{0.05F, 0.05F, 0.05F}});
+  map.cede({{0.05F, 0.05F, 0.05F}});
+  EXPECT_EQ(at(0.05F), nullptr) << "unknown";
+  EXPECT_EQ(map.countVoxels().occupied, before.occupied - 1);
+  EXPECT_EQ(map.countVoxels().free, before.free) << "what beams have shown to be free stays";
+  EXPECT_GT(map.occupiedBox().min().y(), 0.8);
+}
+
 TEST(NodeMap, TheBoxForgetsAnOutlierThatIsCleared) {
   NodeMap map = mapOf({{0.05F, 0.05F, 0.05F}, {1.05F, 0.05F, 0.05F}}, 0.1);
   const auto engine = makeReferenceScanUpdate();

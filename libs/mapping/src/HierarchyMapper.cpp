@@ -247,6 +247,7 @@ void HierarchyMapper::updateMaps(const Measurement& z, const std::vector<Labelle
     update.bounded = config_.bounded;
     if (!std::is_sorted(update.points.begin(), update.points.end()))  // one segment is
       std::sort(update.points.begin(), update.points.end());
+    if (config_.seam_votes) update.ceded = cededPoints(id, parts, nodes);
     updates.push_back(std::move(update));
   }
   std::vector<ScanUpdateReport> results(updates.size());

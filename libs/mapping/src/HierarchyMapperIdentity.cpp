@@ -181,6 +181,7 @@ void HierarchyMapper::divideSegments(const SurfaceRegions& regions, const NodeRe
   };
   std::map<Region, Share> shares;
   std::map<std::size_t, Region> most_of_segment;
+  std::set<std::size_t> divided;
   std::vector<LabelledPart> settled;
   for (std::size_t s = 0; s < parts.size(); ++s) {
     LabelledPart& part = parts[s];
@@ -191,6 +192,9 @@ void HierarchyMapper::divideSegments(const SurfaceRegions& regions, const NodeRe
       continue;
     }
     most_of_segment[s] = *found.most;
+    if (std::any_of(found.of_point.begin(), found.of_point.end(),
+                    [&](const auto& region) { return region != found.most; }))
+      divided.insert(s);
     for (std::size_t i = 0; i < found.of_point.size(); ++i) {
       Share& share = shares[*found.of_point[i]];
       share.points.emplace_back(part.points[i], part.world_points[i]);
@@ -213,6 +217,8 @@ void HierarchyMapper::divideSegments(const SurfaceRegions& regions, const NodeRe
     part.moved_node = nodeOf(region, part, regions, held, near);
     part.is_new = !part.moved_node;
     if (part.moved_node) part.label = hierarchy_.node(*part.moved_node).label();
+    part.is_divided = std::any_of(share.segments.begin(), share.segments.end(),
+                                  [&](const auto& entry) { return divided.contains(entry.first); });
     // What this scan has not shown by itself is not confirmed by it.
     const Region most = most_of_segment.at(segment);
     const auto owners = held.ownersOf(most);
@@ -220,6 +226,26 @@ void HierarchyMapper::divideSegments(const SurfaceRegions& regions, const NodeRe
     settled.push_back(std::move(part));
   }
   parts = std::move(settled);
+}
+
+PointCloud HierarchyMapper::cededPoints(NodeId id, const std::vector<LabelledPart*>& parts,
+                                        const std::vector<NodeId>& nodes) const {
+  PointCloud ceded;
+  const NodeMap& map = std::as_const(hierarchy_).node(id).map();
+  if (map.occupiedBox().isEmpty()) return ceded;
+  const Obb box = hierarchy_.box(id);
+  const Eigen::Isometry3f node_T_world = toIsometry(hierarchy_.world_T_node(id)).inverse().cast<float>();
+  const Eigen::AlignedBox3f inside = map.occupiedBox().cast<float>();
+  for (std::size_t i = 0; i < parts.size(); ++i) {
+    const LabelledPart& part = *parts[i];
+    if (nodes[i] == id || part.structure != Structure::cluster || part.is_divided) continue;
+    if (!isOfKind(id, part.label) || !intersects(box, part.box)) continue;
+    for (const auto& p : part.world_points) {
+      const Eigen::Vector3f q = node_T_world * p;
+      if (inside.contains(q)) ceded.push_back(q);
+    }
+  }
+  return ceded;
 }
 
 std::optional<NodeId> HierarchyMapper::nodeOf(std::uint32_t region, const LabelledPart& part,

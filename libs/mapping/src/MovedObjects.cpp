@@ -188,10 +188,10 @@ class Finder {
     forEachIndex(trials.size(), [&](std::size_t k) {
       const auto& [n, s] = trials[k];
       const DoubtfulNode& node = doubtful[n];
-      LeastScore least_score;
-      if (segments[s].node) least_score = [&](double rest_score) { return leastInPlace(node, rest_score); };
-      result[k] = registerSurfaces(*models[n], *seen[s], configFor(node, *segments[s].world_points), sights[n],
-                                   least_score);
+      MotionNeeds needs;
+      if (segments[s].node) needs = [&](const Registration& rest) { return neededInPlace(node, rest); };
+      result[k] = registerSurfaces(*models[n], *seen[s], configFor(node, *segments[s].world_points),
+                                   sights[n], needs);
     });
     return result;
   }
@@ -229,6 +229,16 @@ class Finder {
     // Within its place it still stands on what it stood on.
     if (std::abs(up) > config_.registration.near * static_cast<double>(asked)) return false;
     return r.score >= leastInPlace(node, r.rest_score);
+  }
+
+  /// The same before it is known, and whether there can be one: where hardly a beam goes through a thing, it
+  /// is where it was, and what is seen besides is other sides of it. A box turned by a half would explain
+  /// them.
+  [[nodiscard]] std::optional<double> neededInPlace(const DoubtfulNode& node,
+                                                    const Registration& rest) const {
+    constexpr double kAtItsEdges = 0.05;  // share of the surface that is shown; motions left 0.1 and more
+    if (sight_ && !node.contradicted && rest.seen_through < kAtItsEdges) return std::nullopt;
+    return leastInPlace(node, rest.score);
   }
 
   /// The score that a motion within the node's own box needs.

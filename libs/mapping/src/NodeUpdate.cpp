@@ -66,6 +66,7 @@ void requireMemory(const NodeUpdate& update, const Beams& beams) {
 
 ScanUpdateReport updateNodeMap(const NodeUpdate& update, const Measurement& z, const ScanUpdate& engine) {
   NodeMap& map = update.node->map();
+  if (!update.ceded.empty()) map.cede(update.ceded);
   NodePoints points = toNodeFrame(update, z);
   Beams beams;
   beams.origin = (toIsometry(update.world_T_node).inverse() * z.origin()).cast<float>();

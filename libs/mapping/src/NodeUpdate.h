@@ -15,6 +15,7 @@ struct NodeUpdate {
   Pose world_T_node;
   const LabelProfile* profile = nullptr;
   PointIndices points;      ///< endpoints of the node's own segments
+  PointCloud ceded;         ///< points of other objects inside the node's box, in its frame
   double max_range = -1.0;  ///< m, the least of sensor and label; negative: none
   bool bounded = true;
 };

@@ -78,6 +78,33 @@ void RegionMerging::joinParts() {
   }
 }
 
+void RegionMerging::joinCarriers() {
+  for (CellIndex load = 0; load < parent_.size(); ++load) {
+    for (bool again = isRegion(load); again;) {
+      again = false;
+      std::vector<CellIndex> around;
+      for (const auto& [other, border] : borders_[load]) around.push_back(other);
+      for (std::size_t i = 0; i < around.size() && !again; ++i) {
+        for (std::size_t j = i + 1; j < around.size() && !again; ++j) {
+          again = carry(around[i], around[j], load);
+          if (again) merge(around[i], around[j]);
+        }
+      }
+    }
+  }
+}
+
+bool RegionMerging::carry(CellIndex a, CellIndex b, CellIndex load) const {
+  constexpr std::int32_t kSame = 1;  // cells
+  constexpr int kConvexCut = 2;  // a pair; what a cut at a convex edge says, seen once: an edge of its own
+  const SeamBorder* border = borders_[a].find(b);
+  if (border != nullptr && border->evidence > kConvexCut * border->pairs) return false;
+  const auto [low_a, high_a] = heights(a, kMostly);
+  const auto [low_b, high_b] = heights(b, kMostly);
+  const auto [foot, top] = heights(load, kMostly);
+  return high_a == high_b && std::abs(low_a - low_b) <= kSame && foot + kSame >= high_a;
+}
+
 CellIndex RegionMerging::regionOf(CellIndex cell) {
   while (parent_[cell] != cell) cell = parent_[cell] = parent_[parent_[cell]];
   return cell;

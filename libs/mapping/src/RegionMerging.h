@@ -95,6 +95,9 @@ class RegionMerging {
   void absorbFragments();
   /// A small piece that a larger thing covers or holds is a part of it.
   void joinParts();
+  /// The sides of a thing that carries another one are never seen together: its top is hidden. Of as high
+  /// pieces between which no seam is seen, all that carry the same thing are one.
+  void joinCarriers();
 
   [[nodiscard]] CellIndex regionOf(CellIndex cell);
   [[nodiscard]] const RegionBorders& bordersOf(CellIndex region) const { return borders_[region]; }
@@ -114,6 +117,8 @@ class RegionMerging {
   void propose(CellIndex a, CellIndex b, const SeamBorder& border);
   /// The one with fewer borders goes into the other, which is returned.
   CellIndex merge(CellIndex a, CellIndex b);
+
+  [[nodiscard]] bool carry(CellIndex a, CellIndex b, CellIndex load) const;
 
   /// Whether a piece is covered by a thing: the base below an overhanging lid, whose seam is never seen. Or
   /// held from the side: it does not reach down as far, nor lies on top, and hardly meets anything else that

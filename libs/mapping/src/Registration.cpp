@@ -28,9 +28,9 @@ constexpr double kOtherTurn = 0.17;  // rad; nearer turns are one fit
 class Registrar {
  public:
   Registrar(const RegistrationSurface& model, const RegistrationSurface& seen,
-            const RegistrationConfig& config, const RegistrationSight& sight, const LeastScore& least_score)
+            const RegistrationConfig& config, const RegistrationSight& sight, const MotionNeeds& needs)
       : config_(config),
-        least_score_(least_score),
+        needs_(needs),
         model_(model),
         seen_(seen),
         points_(model, seen, sight),
@@ -45,6 +45,11 @@ class Registrar {
     Registration rest = judge_.judged(points_.atRest(), kJudgedPoints);
     rest.rest_score = rest.score;
     if (rest.score >= config_.at_rest) return rest;
+    const std::optional<double> least_score = needs_ ? needs_(rest) : 0.0;
+    if (!least_score) {
+      rest.verdict = Match::different;
+      return rest;
+    }
     const std::vector<Eigen::Isometry3f> coarse = coarseMotions();
     std::vector<Registration> candidates(coarse.size());
     forEachIndex(coarse.size(), [&](std::size_t k) {
@@ -59,7 +64,7 @@ class Registrar {
     // their end before one is chosen.
     const Registration first = *std::max_element(candidates.begin(), candidates.end(), fitsWorse);
     constexpr double kFollowed = 0.03;  // more has not been seen to come of it
-    if (least_score_ && first.score + kFollowed < least_score_(rest.score)) {
+    if (first.score + kFollowed < *least_score) {
       rest.verdict = Match::different;
       return rest;
     }
@@ -166,7 +171,7 @@ class Registrar {
   }
 
   const RegistrationConfig& config_;
-  const LeastScore& least_score_;
+  const MotionNeeds& needs_;
   const RegistrationSurface& model_;
   const RegistrationSurface& seen_;
   ClosestPoints points_;
@@ -177,8 +182,8 @@ class Registrar {
 
 Registration registerSurfaces(const RegistrationSurface& model, const RegistrationSurface& seen,
                               const RegistrationConfig& config, const RegistrationSight& sight,
-                              const LeastScore& least_score) {
-  return Registrar(model, seen, config, sight, least_score).best();
+                              const MotionNeeds& needs) {
+  return Registrar(model, seen, config, sight, needs).best();
 }
 
 void orientModel(RegistrationSurface& model, const RegistrationSight& sight) {

@@ -54,14 +54,16 @@ class CellGraph {
       });
     }
     for (int step = 14; step < 27; ++step) {  // half of the 26 neighbours
-      forPairs({step / 9 - 1, step / 3 % 3 - 1, step % 3 - 1},
-               [&](Index i, Index j) { borders.push_back({i, j, kNeighbours}); });
+      forPairs({step / 9 - 1, step / 3 % 3 - 1, step % 3 - 1}, [&](Index i, Index j) {
+        borders.push_back({i, j, kNeighbours});
+      });
     }
     return borders;
   }
 
  private:
-  /// Calls `visit(i, j)` for all cells j that lie `offset` from a cell i: both in order, so one walk finds them.
+  /// Calls `visit(i, j)` for all cells j that lie `offset` from a cell i: both in order, so one walk finds
+  /// them.
   template <typename Visit>
   void forPairs(const Cell& offset, const Visit& visit) const {
     Index j = 0;
@@ -128,6 +130,7 @@ SurfaceRegions::SurfaceRegions(const SeamVotes& votes, const SeamVotes::Cells& s
     mergings[k].mergeWhatIsOne();
     mergings[k].absorbFragments();
     mergings[k].joinParts();
+    mergings[k].joinCarriers();
   });
 
   std::vector<std::map<Index, Region>> number(mergings.size());  // by group and root

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <functional>
+#include <optional>
 
 #include "ClosestPoints.h"
 
@@ -12,13 +13,13 @@ namespace hoctomap {
 void orientModel(RegistrationSurface& model, const RegistrationSight& sight);
 void orientSeen(RegistrationSurface& seen, const RegistrationSight& sight);
 
-/// The score that a motion must reach to be of use, given that without any.
-using LeastScore = std::function<double(double rest_score)>;
+/// The score that a motion must reach to be of use, given how the two fit without any; nothing: none is.
+using MotionNeeds = std::function<std::optional<double>(const Registration& rest)>;
 
-/// `registerPoints` for surfaces that are registered several times. A motion that is far from `least_score`
+/// `registerPoints` for surfaces that are registered several times. A motion that is far from what it needs
 /// once it is near its end is not followed further: the two are `different`.
 [[nodiscard]] Registration registerSurfaces(const RegistrationSurface& model, const RegistrationSurface& seen,
                                             const RegistrationConfig& config, const RegistrationSight& sight,
-                                            const LeastScore& least_score = {});
+                                            const MotionNeeds& needs = {});
 
 }  // namespace hoctomap

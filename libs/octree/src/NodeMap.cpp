@@ -72,8 +72,38 @@ void NodeMap::give(NodeMap& other, const Eigen::Isometry3d& other_T_this,
       [&](const octomap::OcTreeKey& key, float log_odds) {
         const Eigen::Vector3d p = other_T_this * center(key);
         octomap::OcTreeKey there;
-        if (other.tree_->coordToKeyChecked(p.x(), p.y(), p.z(), there)) other.tree_->updateNode(there, log_odds);
+        if (other.tree_->coordToKeyChecked(p.x(), p.y(), p.z(), there))
+          other.tree_->updateNode(there, log_odds);
       });
+}
+
+void NodeMap::cede(const PointCloud& points) {
+  octomap::KeySet near;
+  for (const auto& p : points) {
+    octomap::OcTreeKey key;
+    if (!tree_->coordToKeyChecked(p.x(), p.y(), p.z(), key)) continue;
+    for (int n = 0; n < 27; ++n) {
+      const auto beside = [n, &key](unsigned axis, int step) {
+        return static_cast<octomap::key_type>(key[axis] + n / step % 3 - 1);
+      };
+      near.insert({beside(0, 9), beside(1, 3), beside(2, 1)});
+    }
+  }
+  octomap::KeySet lost;
+  for (const auto& key : near) {
+    const octomap::OcTreeNode* voxel = tree_->search(key);
+    if (voxel == nullptr || !tree_->isNodeOccupied(voxel)) continue;
+    occupied_valid_ = false;
+    if (voxel->getLogOdds() - tree_->getProbHitLog() < tree_->getOccupancyThresLog()) {
+      lost.insert(key);
+    } else {
+      tree_->updateNode(key, -tree_->getProbHitLog());
+    }
+  }
+  if (lost.empty()) return;
+  engine::takeVoxels(
+      *tree_, [&](const octomap::OcTreeKey& key) { return lost.count(key) > 0; },
+      [](const octomap::OcTreeKey&, float) {});
 }
 
 const PointCloud& NodeMap::occupiedVoxels() const {

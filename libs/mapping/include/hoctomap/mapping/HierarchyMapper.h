@@ -113,6 +113,9 @@ class HierarchyMapper {
                     const std::optional<Pose>& frame = std::nullopt);
   void updateMaps(const Measurement& z, const std::vector<LabelledPart*>& parts,
                   const std::vector<NodeId>& nodes, UpdateReport& report);
+  /// The points of other nodes' segments in the box of a node of things, in its frame (docs/decisions/0029).
+  [[nodiscard]] PointCloud cededPoints(NodeId id, const std::vector<LabelledPart*>& parts,
+                                       const std::vector<NodeId>& nodes) const;
   void adoptRelated(const std::vector<NodeId>& created);
   // HierarchyMapperChanges.cpp
   void followMovedObjects(const Measurement& z, std::vector<LabelledPart>& parts, NodeEvidence& evidence,

@@ -21,6 +21,7 @@ struct LabelledPart {
   std::optional<NodeId> moved_node;     ///< known to be here now: it takes the segment wherever its box is
   NodeId node;                          ///< that took it
   bool is_new = false;                  ///< it shows no known node, whatever boxes say
+  bool is_divided = false;              ///< of a segment of S that holds parts of others, too
   std::optional<NodeId> joined_with{};  ///< of a part of a segment that this node's part is the main one of
 };
 

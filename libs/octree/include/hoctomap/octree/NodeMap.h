@@ -47,6 +47,11 @@ class NodeMap {
   void give(NodeMap& other, const Eigen::Isometry3d& other_T_this,
             const std::function<bool(const Eigen::Vector3f&)>& which);
 
+  /// Takes what a scan has shown to be another object's as evidence against: each occupied voxel that holds
+  /// one of the points (in this map's frame), or is beside one that does, loses as much as a hit gives. One
+  /// that is not occupied any more is unknown afterwards: nothing was measured there but the other object.
+  void cede(const PointCloud& points);
+
   /// Centres of the occupied voxels in the node's frame, at the map's resolution, in octree order.
   [[nodiscard]] const PointCloud& occupiedVoxels() const;
 
