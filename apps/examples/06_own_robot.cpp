@@ -10,21 +10,13 @@
 #include <iostream>
 
 using namespace hoctomap;
+using Eigen::Vector3d;
 
 namespace {
-
-using Box = Eigen::AlignedBox3d;
-
-/// A room of 5 m, a table in it, and a parcel on the table.
-const std::vector<Box> kWorld{
-    {Eigen::Vector3d(-2.5, -2.5, -0.1), Eigen::Vector3d(2.5, 2.5, 0.0)},
-    {Eigen::Vector3d(-2.6, -2.5, 0.0), Eigen::Vector3d(-2.5, 2.5, 2.0)},
-    {Eigen::Vector3d(2.5, -2.5, 0.0), Eigen::Vector3d(2.6, 2.5, 2.0)},
-    {Eigen::Vector3d(-2.5, -2.6, 0.0), Eigen::Vector3d(2.5, -2.5, 2.0)},
-    {Eigen::Vector3d(-2.5, 2.5, 0.0), Eigen::Vector3d(2.5, 2.6, 2.0)},
-    {Eigen::Vector3d(-0.5, -0.4, 0.68), Eigen::Vector3d(0.5, 0.4, 0.72)},
-    {Eigen::Vector3d(-0.1, -0.07, 0.72), Eigen::Vector3d(0.1, 0.07, 0.86)},
-};
+/// A room of 5 m, which the robot sees from within, a table in it, and a parcel on the table.
+const std::vector<Eigen::AlignedBox3d> kWorld{{Vector3d(-2.5, -2.5, 0.0), Vector3d(2.5, 2.5, 6.0)},
+                                              {Vector3d(-0.5, -0.4, 0.68), Vector3d(0.5, 0.4, 0.72)},
+                                              {Vector3d(-0.1, -0.07, 0.72), Vector3d(0.1, 0.07, 0.86)}};
 
 class MyRobot final : public Robot, public MeasurementSource {
  public:
@@ -37,25 +29,25 @@ class MyRobot final : public Robot, public MeasurementSource {
   }
   /// One frame from where the robot is.
   [[nodiscard]] std::optional<SourceItem> next() override {
-    const Eigen::Isometry3d world_T_camera = toIsometry(at_.world_T_sensor());
+    const auto world_T_camera = toIsometry(at_.world_T_sensor());
     DepthImage image{model_.camera, {}};
     for (int v = 0; v < image.camera.height; ++v)
       for (int u = 0; u < image.camera.width; ++u)
-        image.depth.push_back(
-            depth(world_T_camera.translation(), world_T_camera.rotation() * image.camera.point(u, v, 1.0)));
+        image.depth.push_back(depth(world_T_camera, image.camera.point(u, v, 1.0)));
     Measurement z = unproject(std::move(image), at_.world_T_sensor(), {});
     z.stamp = static_cast<double>(z.scan = scans_++);
     return z;
   }
 
  private:
-  static float depth(const Eigen::Vector3d& origin, const Eigen::Vector3d& direction) {
+  static float depth(const Eigen::Isometry3d& world_T_camera, const Vector3d& beam) {
+    const Vector3d origin = world_T_camera.translation(), direction = world_T_camera.rotation() * beam;
     double nearest = 5.0;
-    for (const Box& box : kWorld) {
+    for (const auto& box : kWorld) {
       const Eigen::Array3d a = (box.min() - origin).array() / direction.array();
       const Eigen::Array3d b = (box.max() - origin).array() / direction.array();
-      if (a.min(b).maxCoeff() > 0.0 && a.min(b).maxCoeff() <= a.max(b).minCoeff())
-        nearest = std::min(nearest, a.min(b).maxCoeff());
+      const double in = a.min(b).maxCoeff(), out = a.max(b).minCoeff();
+      if (out > 0.0 && in <= out) nearest = std::min(nearest, in > 0.0 ? in : out);
     }
     return nearest < 5.0 ? static_cast<float>(nearest) : 0.0F;  // 0: no return
   }
@@ -64,7 +56,6 @@ class MyRobot final : public Robot, public MeasurementSource {
   Viewpoint at_{Pose(-1.8, -1.5, 0.0, 0.5, 0.0, 0.0), Pose(0.0, 0.0, 1.2, 0.0, 0.4, 0.0)};
   std::uint64_t scans_ = 0;
 };
-
 }  // namespace
 
 int main() {
@@ -80,7 +71,6 @@ int main() {
   profiles[labels::table].resolution = 0.01;
   profiles[labels::object].resolution = 0.005;
   HierarchyMapper mapper({}, profiles, std::move(strategies));
-
   MyRobot robot;
   Explorer explorer({}, robot, robot, mapper);
   explorer.onStep([](const ExplorationStep& step) { std::cout << toString(step.kind) << "\n"; });
