@@ -2,12 +2,11 @@
 #include <cmath>
 #include <iostream>
 #include <memory>
-#include <numbers>
-#include <sstream>
 
 #include "AtScan.h"
 #include "Command.h"
 #include "DiffOutput.h"
+#include "TransformOption.h"
 #include "hoctomap/geometry/Errors.h"
 #include "hoctomap/io/AtomicFile.h"
 #include "hoctomap/io/EscapedText.h"
@@ -29,24 +28,6 @@ struct DiffOptions {
   AtScan at_scan_b;
   double min_motion = DiffConfig{}.min_motion;
 };
-
-/// `x y z yaw pitch roll`, with or without commas and the brackets of MRPT's own text.
-Pose parseTransform(const std::string& text) {
-  std::string plain = text;
-  for (char& c : plain) {
-    if (c == ',' || c == '[' || c == ']') c = ' ';
-  }
-  std::istringstream in(plain);
-  in.imbue(std::locale::classic());
-  std::vector<double> v;
-  for (double value = 0.0; in >> value;) v.push_back(value);
-  if (!in.eof() || v.size() != 6) {
-    throw ConfigError("--transform: \"" + escapedText(text, 80) +
-                      "\" is not of the form \"x y z yaw pitch roll\" (metres, degrees)");
-  }
-  const double degree = std::numbers::pi / 180.0;
-  return {v[0], v[1], v[2], degree * v[3], degree * v[4], degree * v[5]};
-}
 
 StoredMap readSide(const std::string& path, const AtScan& own, const AtScan& both) {
   const AtScan at_scan = own ? own : both;

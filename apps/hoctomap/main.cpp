@@ -49,6 +49,7 @@ int main(int argc, char** argv) {
   hoctomap::addDiffCommand(app, action);
   hoctomap::addQueryCommand(app, action);
   hoctomap::addEditCommand(app, action);
+  hoctomap::addMergeCommand(app, action);
   hoctomap::addVerifyCommand(app, action);
   hoctomap::addExportCommand(app, action);
   hoctomap::addImportCommand(app, action);

@@ -10,7 +10,7 @@ TEST(Help, NamesEveryCommand) {
   const auto outcome = test::hoctomap({"--help"});
   EXPECT_EQ(outcome.exit_code, 0);
   for (const char* command : {"build", "segment", "info", "render", "explain", "diff", "query", "edit",
-                              "verify", "export", "import", "simulate", "explore"}) {
+                              "merge", "verify", "export", "import", "simulate", "explore"}) {
     EXPECT_NE(outcome.out.find(command), std::string::npos) << command;
   }
   EXPECT_TRUE(outcome.err.empty());
@@ -38,6 +38,7 @@ TEST(Help, OfACommandNamesItsOptionsAndAnExample) {
        {"DIR", "--point", "--ray", "--box", "--sphere", "--distance", "--unknown", "--objects", "--batch",
         "--kind", "--ignore-unknown", "--max-range", "--step", "--min-existence", "--json", "--at-scan"}},
       {"edit", {"DIR", "relabel", "move", "remove", "merge"}},
+      {"merge", {"MAP", "-o", "--transform"}},
       {"verify", {"DIR", "--json"}},
       {"export", {"DIR", "--format", "-o", "--at-scan"}},
       {"import", {"tum", "frames", "pcd"}},

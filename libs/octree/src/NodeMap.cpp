@@ -33,6 +33,34 @@ Eigen::Vector3d centerOf(const octomap::OcTree& tree, const octomap::OcTreeKey& 
   return {at(0), at(1), at(2)};
 }
 
+bool isBesideOccupied(const octomap::OcTree& tree, const octomap::OcTreeKey& key) {
+  for (int i = 0; i < 27; ++i) {
+    octomap::OcTreeKey there = key;
+    there[0] = static_cast<octomap::key_type>(key[0] + i % 3 - 1);
+    there[1] = static_cast<octomap::key_type>(key[1] + i / 3 % 3 - 1);
+    there[2] = static_cast<octomap::key_type>(key[2] + i / 9 - 1);
+    const auto* voxel = tree.search(there);
+    if (voxel != nullptr && tree.isNodeOccupied(voxel)) return true;
+  }
+  return false;
+}
+
+/// The tree, all leaves at its resolution, in another grid: of voxels that fall into one, the largest counts.
+octomap::OcTree resampled(const octomap::OcTree& source, const Eigen::Isometry3d& there_T_source) {
+  octomap::OcTree there(source.getResolution());
+  for (auto leaf = source.begin_leafs(); leaf != source.end_leafs(); ++leaf) {
+    if (!source.isNodeOccupied(*leaf) && isBesideOccupied(source, leaf.getKey())) continue;
+    const Eigen::Vector3d p = there_T_source * Eigen::Vector3d(leaf.getX(), leaf.getY(), leaf.getZ());
+    octomap::OcTreeKey key;
+    if (!there.coordToKeyChecked(p.x(), p.y(), p.z(), key)) continue;
+    const auto* taken = there.search(key);
+    if (taken == nullptr || taken->getLogOdds() < leaf->getLogOdds()) {
+      there.setNodeValue(key, leaf->getLogOdds(), true);
+    }
+  }
+  return there;
+}
+
 }  // namespace
 
 NodeMap::NodeMap(double resolution, const OccupancyModel& model) : NodeMap(emptyTree(resolution), model) {}
@@ -61,6 +89,19 @@ void NodeMap::absorb(const NodeMap& other, const Eigen::Isometry3d& this_T_other
       if (occupied || tree_->search(key) == nullptr) tree_->updateNode(key, leaf->getLogOdds());
     }
   }
+}
+
+void NodeMap::add(const NodeMap& other, const Eigen::Isometry3d& this_T_other) {
+  occupied_valid_ = false;
+  octomap::OcTree source(*other.tree_);
+  source.expand();
+  const bool same_grid = this_T_other.matrix().isIdentity(0.0) && source.getResolution() == resolution();
+  const octomap::OcTree here = same_grid ? source : resampled(source, this_T_other);
+  for (auto leaf = here.begin_leafs(); leaf != here.end_leafs(); ++leaf) {
+    tree_->updateNode(leaf.getCoordinate(), leaf->getLogOdds(), true);
+  }
+  tree_->updateInnerOccupancy();
+  tree_->prune();
 }
 
 void NodeMap::give(NodeMap& other, const Eigen::Isometry3d& other_T_this,

@@ -42,6 +42,12 @@ class NodeMap {
   /// this map knows nothing. Voxels are resampled at their centres.
   void absorb(const NodeMap& other, const Eigen::Isometry3d& this_T_other);
 
+  /// Adds what another map knows of the same thing, from other scans: in log-odds, within clamping. With the
+  /// identity the sum is exact, voxel by voxel; otherwise the other map is resampled at its voxels' centres,
+  /// and its free voxels beside occupied ones, which a turned grid would shift into the surface, do not
+  /// count.
+  void add(const NodeMap& other, const Eigen::Isometry3d& this_T_other);
+
   /// Hands over the occupied voxels of which `which` (centre in this map's frame) is true: they are added to
   /// the other map in log-odds, and unknown here afterwards.
   void give(NodeMap& other, const Eigen::Isometry3d& other_T_this,

@@ -1,0 +1,224 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "hoctomap/query/HierarchyMerge.h"
+
+#include <algorithm>
+#include <map>
+#include <stdexcept>
+#include <utility>
+
+#include "VoxelTree.h"
+#include "hoctomap/existence/ExistenceFilter.h"
+
+namespace hoctomap {
+
+namespace {
+
+/// A node as a surface in the result's world.
+struct Surface {
+  const MapNode* node;
+  Obb box;
+  PointCloud voxels;
+  VoxelTree tree;
+};
+
+std::vector<Surface> surfacesOf(const MapHierarchy& map, const Pose& world_T_map) {
+  std::vector<Surface> surfaces;
+  for (const NodeId id : map.preorder()) {
+    const MapNode& node = map.node(id);
+    if (id == kRootId || node.map().occupiedVoxels().empty()) continue;
+    const Eigen::Isometry3d world_T_node = toIsometry(world_T_map + map.world_T_node(id));
+    Obb box = map.box(id);
+    box.world_T_frame = toIsometry(world_T_map) * box.world_T_frame;
+    PointCloud voxels;
+    for (const auto& voxel : node.map().occupiedVoxels()) {
+      voxels.push_back((world_T_node * voxel.cast<double>()).cast<float>());
+    }
+    VoxelTree tree(voxels);
+    surfaces.push_back({&node, std::move(box), std::move(voxels), std::move(tree)});
+  }
+  return surfaces;
+}
+
+/// Share of the voxels of `a` that lie on `b`.
+double shareOn(const Surface& a, const Surface& b, double near) {
+  const auto count =
+      std::count_if(a.voxels.begin(), a.voxels.end(), [&](const auto& p) { return b.tree.hasNear(p, near); });
+  return static_cast<double>(count) / static_cast<double>(a.voxels.size());
+}
+
+bool isSame(const Surface& a, const Surface& b, const MergeConfig& config) {
+  const double resolution = a.node->map().resolution();
+  if (a.node->label() != b.node->label() || b.node->map().resolution() != resolution) return false;
+  if (!intersects(a.box, b.box)) return false;
+  const double near = config.near + resolution;
+  return std::max(shareOn(a, b, near), shareOn(b, a, near)) >= config.overlap;
+}
+
+bool isAtOrBelow(const MapHierarchy& map, NodeId id, NodeId above) {
+  for (std::optional<NodeId> at = id; at; at = map.node(*at).parent()) {
+    if (*at == above) return true;
+  }
+  return false;
+}
+
+/// The result while part after part is taken in.
+class Merger {
+ public:
+  Merger(const MergePart& first, const LabelProfiles& profiles, const MergeConfig& config)
+      : profiles_(profiles),
+        config_(config),
+        merged_{
+            MapHierarchy(first.hierarchy.root().label(), NodeMap(first.hierarchy.root().map().resolution(),
+                                                                 first.hierarchy.root().map().model())),
+            {},
+            {},
+            0} {}
+
+  void take(const MergePart& part);
+  [[nodiscard]] MergedMaps result() && { return std::move(merged_); }
+
+ private:
+  using Same = std::map<NodeId, std::vector<NodeId>>;  ///< of a node of the part: the result's
+
+  [[nodiscard]] Same findSame(const MergePart& part) const;
+  void fuse(const MergePart& part, NodeId from, NodeId into);
+  NodeId adopt(const MergePart& part, NodeId from, NodeId parent);
+  void join(NodeId whole, NodeId piece);
+  void addExistence(NodeId id, double log_odds);
+  [[nodiscard]] NodeId now(NodeId id) const;
+  void note(NodeEventKind kind, NodeId id, std::string detail);
+
+  const LabelProfiles& profiles_;
+  const MergeConfig& config_;
+  MergedMaps merged_;
+  UpdateReport report_;
+  std::map<NodeId, NodeId> joined_;  ///< nodes that have become another one
+};
+
+Merger::Same Merger::findSame(const MergePart& part) const {
+  const std::vector<Surface> known = surfacesOf(merged_.hierarchy, Pose());
+  Same same;
+  for (const Surface& surface : surfacesOf(part.hierarchy, part.world_T_map)) {
+    for (const Surface& candidate : known) {
+      if (isSame(surface, candidate, config_)) same[surface.node->id()].push_back(candidate.node->id());
+    }
+  }
+  return same;
+}
+
+void Merger::take(const MergePart& part) {
+  report_ = {};
+  report_.scan = merged_.scans + std::max<std::uint64_t>(part.scans, 1) - 1;
+  report_.stamp = part.last_stamp;
+  const Same same = findSame(part);
+  std::map<NodeId, NodeId> taken{{kRootId, kRootId}};
+  fuse(part, kRootId, kRootId);
+  for (const NodeId from : part.hierarchy.preorder()) {
+    if (from == kRootId) continue;
+    const NodeId parent = now(taken.at(*part.hierarchy.node(from).parent()));
+    const auto found = same.find(from);
+    if (found == same.end()) {
+      taken[from] = adopt(part, from, parent);
+      continue;
+    }
+    NodeId into = now(found->second.front());
+    for (const NodeId other : found->second) {
+      const NodeId piece = now(other);
+      if (piece != into) join(std::min(into, piece), std::max(into, piece));
+      into = now(into);
+    }
+    fuse(part, from, into);
+    // What stands on a table that only this part has seen.
+    const bool knows_more = merged_.hierarchy.node(into).parent() == kRootId && parent != kRootId;
+    if (knows_more && !isAtOrBelow(merged_.hierarchy, parent, into)) merged_.hierarchy.reparent(into, parent);
+    taken[from] = into;
+  }
+  merged_.scans += part.scans;
+  merged_.reports.push_back(std::move(report_));
+}
+
+void Merger::fuse(const MergePart& part, NodeId from, NodeId into) {
+  const MapNode& source = part.hierarchy.node(from);
+  MapNode& node = merged_.hierarchy.node(into);
+  const Pose into_T_from =
+      -merged_.hierarchy.world_T_node(into) + (part.world_T_map + part.hierarchy.world_T_node(from));
+  const bool first = into == kRootId && merged_.reports.empty();
+  node.map().add(source.map(), toIsometry(into == kRootId ? part.world_T_map : into_T_from));
+  node.first_scan = first ? source.first_scan : std::min(node.first_scan, merged_.scans + source.first_scan);
+  node.last_scan = std::max(node.last_scan, merged_.scans + source.last_scan);
+  node.version = report_.scan;
+  if (first) {
+    node.existence_log_odds = source.existence_log_odds;
+  } else {
+    addExistence(into, source.existence_log_odds);
+  }
+  note(NodeEventKind::updated, into, "by node " + std::to_string(from.value) + " of map " + part.name);
+}
+
+NodeId Merger::adopt(const MergePart& part, NodeId from, NodeId parent) {
+  const MapNode& source = part.hierarchy.node(from);
+  NodeMap map(std::make_unique<octomap::OcTree>(source.map().tree()), source.map().model());
+  const NodeId id = merged_.hierarchy.add(source.label(), std::move(map),
+                                          part.world_T_map + part.hierarchy.world_T_node(from), parent);
+  MapNode& node = merged_.hierarchy.node(id);
+  node.existence_log_odds = source.existence_log_odds;
+  node.first_scan = merged_.scans + source.first_scan;
+  node.last_scan = merged_.scans + source.last_scan;
+  node.version = report_.scan;
+  note(NodeEventKind::created, id, "node " + std::to_string(from.value) + " of map " + part.name);
+  return id;
+}
+
+/// Two nodes so far, of which this part says that they are one.
+void Merger::join(NodeId whole, NodeId piece) {
+  MapHierarchy& map = merged_.hierarchy;
+  if (isAtOrBelow(map, whole, piece)) map.reparent(whole, *map.node(piece).parent());
+  const std::vector<NodeId> children = map.node(piece).children();
+  for (const NodeId child : children) {
+    if (child != whole) map.reparent(child, whole);
+  }
+  const Pose world_T_piece = map.world_T_node(piece);
+  map.node(whole).map().add(map.node(piece).map(), toIsometry(-map.world_T_node(whole) + world_T_piece));
+  map.node(whole).version = report_.scan;
+  map.node(whole).first_scan = std::min(map.node(whole).first_scan, map.node(piece).first_scan);
+  map.node(whole).last_scan = std::max(map.node(whole).last_scan, map.node(piece).last_scan);
+  addExistence(whole, map.node(piece).existence_log_odds);
+  note(NodeEventKind::merged, piece, "into node " + std::to_string(whole.value));
+  joined_[piece] = whole;
+  merged_.removed.push_back({map.remove(piece), world_T_piece, report_.scan});
+}
+
+void Merger::addExistence(NodeId id, double log_odds) {
+  MapNode& node = merged_.hierarchy.node(id);
+  const LabelProfile& profile = profiles_.at(node.label());
+  if (!profile.existence_enabled) return;
+  ExistenceEntry entry{id, {}, 0.0};
+  entry.evidence.informative = true;
+  entry.evidence.p_measurement = probability(log_odds);
+  node.existence_log_odds =
+      ExistenceFilter(profile.existence).update(node.existence_log_odds, entry.evidence.p_measurement);
+  entry.p_posterior = node.existence();
+  report_.existence.push_back(entry);
+}
+
+NodeId Merger::now(NodeId id) const {
+  for (auto next = joined_.find(id); next != joined_.end(); next = joined_.find(id)) id = next->second;
+  return id;
+}
+
+void Merger::note(NodeEventKind kind, NodeId id, std::string detail) {
+  const MapNode& node = merged_.hierarchy.node(id);
+  report_.events.push_back({kind, id, node.label(), node.existence(), std::move(detail)});
+}
+
+}  // namespace
+
+MergedMaps mergeMaps(std::span<const MergePart> parts, const LabelProfiles& profiles,
+                     const MergeConfig& config) {
+  if (parts.empty()) throw std::invalid_argument("there is nothing to merge");
+  Merger merger(parts.front(), profiles, config);
+  for (const MergePart& part : parts) merger.take(part);
+  return std::move(merger).result();
+}
+
+}  // namespace hoctomap
