@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "StopSignal.h"
 
-#include <sys/time.h>
 #include <unistd.h>
 
 #include <csignal>
@@ -11,8 +10,9 @@ namespace hoctomap {
 
 namespace {
 
-/// What an orderly stop may take. Users wait two seconds at most; the end of a large process takes its part.
-constexpr suseconds_t kPatience = 500'000;  // us, beyond 1 s
+/// What an orderly stop may take. Users wait two seconds at most; to end a large process takes its part of
+/// them.
+constexpr unsigned kPatience = 1;  // s
 
 // A signal handler can reach nothing but these.
 volatile std::sig_atomic_t g_signal = 0;
@@ -26,8 +26,7 @@ void remember(int signal) {
   }
   g_signal = signal;
   if (g_gives_up == 0) return;
-  const itimerval patience{{0, 0}, {1, kPatience}};  // a system call and nothing else, on Linux
-  ::setitimer(ITIMER_REAL, &patience, nullptr);
+  ::alarm(kPatience);
 }
 
 /// The scan at work, its commit, or the scene takes too long.
