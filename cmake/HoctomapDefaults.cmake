@@ -3,6 +3,7 @@
 option(BUILD_TESTING "Build the tests" ON)
 option(HOCTOMAP_WERROR "Treat warnings as errors" OFF)
 option(HOCTOMAP_SANITIZE "Build with AddressSanitizer and UndefinedBehaviorSanitizer" OFF)
+option(HOCTOMAP_SANITIZE_THREADS "Build with ThreadSanitizer" OFF)
 option(HOCTOMAP_FUZZ "Build the targets of tests/fuzz for libFuzzer, too; needs clang" OFF)
 
 set(CMAKE_CXX_STANDARD 20)
@@ -41,6 +42,10 @@ if(HOCTOMAP_SANITIZE)
     # GCC 12 reports false null dereferences in sanitized code.
     -Wno-null-dereference)
   target_link_options(hoctomap_flags INTERFACE -fsanitize=address,undefined)
+elseif(HOCTOMAP_SANITIZE_THREADS)
+  target_compile_options(hoctomap_flags INTERFACE
+    -fsanitize=thread -fno-omit-frame-pointer -Wno-null-dereference -Wno-tsan)
+  target_link_options(hoctomap_flags INTERFACE -fsanitize=thread)
 else()
   target_compile_options(hoctomap_flags INTERFACE
     $<$<NOT:$<CONFIG:Debug>>:-U_FORTIFY_SOURCE$<SEMICOLON>-D_FORTIFY_SOURCE=2>)

@@ -72,7 +72,8 @@ int build(const BuildOptions& options) {
     }
   }
 
-  const StopSignal stop_signal;  // a signal before this changes nothing, so it may end the program
+  // A signal before this changes nothing, so it may end the program.
+  const StopSignal stop_signal(StopSignal::LongWork::given_up);
   const MapOpenMode mode = options.resume      ? MapOpenMode::resume
                            : options.overwrite ? MapOpenMode::overwrite
                                                : MapOpenMode::create;

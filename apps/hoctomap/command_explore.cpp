@@ -211,7 +211,7 @@ int explore(const ExploreOptions& options) {
   const std::size_t cores = std::max(1U, std::thread::hardware_concurrency());
   const tbb::global_control threads(tbb::global_control::max_allowed_parallelism,
                                     options.threads > 0 ? static_cast<std::size_t>(options.threads) : cores);
-  const StopSignal stop_signal;
+  const StopSignal stop_signal(StopSignal::LongWork::waited_for);
   const MapOpenMode mode = options.overwrite ? MapOpenMode::overwrite : MapOpenMode::create;
   MapDirectory directory(options.output, {mode, toIni(settings), "hoctomap " HOCTOMAP_VERSION, {}});
   log.writeTo(directory.logFile());

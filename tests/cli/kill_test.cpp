@@ -154,6 +154,33 @@ TEST_F(Kills, ASignalCommitsAndSaysSo) {
   }
 }
 
+/// The alarm that the first signal sets comes at once here, wherever the run stands.
+TEST_F(Kills, AStopThatTakesTooLongLeavesTheLastCommit) {
+  int ended_at_once = 0;
+  for (const int changes_before : {1, 10, 25, 40}) {
+    const std::string map = folder / ("map" + std::to_string(changes_before));
+    std::filesystem::create_directory(map);
+    {
+      RunningBuild run(log, map);
+      NameChanges changes(map);
+      int before = changes_before;
+      while (before > 0 && !run.ended()) before -= changes.next(5) ? 1 : 0;
+      run.signal(SIGINT);
+      run.signal(SIGALRM);
+      const ExitStatus status = run.wait();
+      ASSERT_EQ(status.signal, 0);
+      EXPECT_EQ(status.code, 128 + SIGINT);
+    }
+    const bool orderly = test::readFile(map + "/log.txt").find("stopped by signal") != std::string::npos;
+    ended_at_once += orderly ? 0 : 1;
+    if (std::filesystem::exists(map + "/hierarchy.yaml")) {
+      for (const Damage& damage : checkMap(map).damage) ADD_FAILURE() << damage.path << ": " << damage.what;
+    }
+    EXPECT_EQ(runToTheEnd(map, [](RunningBuild&) {}), 0);
+  }
+  EXPECT_GT(ended_at_once, 0);
+}
+
 TEST_F(Kills, ASecondSignalEndsItAtOnceAndSafely) {
   const std::string map = folder / "map";
   std::filesystem::create_directory(map);

@@ -37,14 +37,54 @@ void BuildRun::all(MapDirectory& writer) {
   scene(writer);
 }
 
-void BuildRun::finish(MapDirectory& writer, std::uint64_t seed) {
-  const std::uint64_t done = writer.committed() ? writer.committed()->scans : 0;
-  BuildRun run(seed);
-  for (std::uint64_t i = 0; i < done; ++i) run.change();
-  // What the map has removed already is in its manifest, not in the hands of this session.
-  if (done == 3) run.removed_.clear();
-  for (std::uint64_t i = done; i < 3; ++i) run.commit(writer);
+void BuildRun::end(MapDirectory& writer) {
+  UpdateReport report = reportOf(hierarchy_, NodeId{2}, scans_ - 1);
+  report.existence.clear();
+  writer.appendEnd(report);
+  writer.commit({hierarchy_, removed_, scans_, "log"});
   scene(writer);
+}
+
+void BuildRun::log(MapDirectory& writer, std::uint64_t scans) {
+  while (scans_ < scans) commit(writer);
+  end(writer);
+}
+
+void BuildRun::skip(std::uint64_t done) {
+  for (std::uint64_t i = 0; i < done; ++i) change();
+  // What the map has removed already is in its manifest, not in the hands of this session.
+  if (done == 3) removed_.clear();
+}
+
+void BuildRun::finish(MapDirectory& writer, std::uint64_t seed) {
+  BuildRun run(seed);
+  run.skip(writer.committed() ? writer.committed()->scans : 0);
+  while (run.scans_ < 3) run.commit(writer);
+  scene(writer);
+}
+
+void BuildRun::finishLog(MapDirectory& writer, std::uint64_t seed) {
+  BuildRun run(seed);
+  run.skip(writer.committed() ? writer.committed()->scans : 0);
+  run.log(writer, 3);
+}
+
+void editMap(MapDirectory& writer) {
+  const Manifest before = *writer.committed();
+  if (before.edits == 0) {
+    MapReadOptions all;
+    all.to_edit = true;
+    StoredMap stored = readMap(writer.path(), all);
+    Rng rng(1);
+    MapNode& node = stored.hierarchy.node(NodeId{2});
+    changeNode(rng, stored.hierarchy, NodeId{2}, node.version);
+    node.edition = 1;
+    UpdateReport report = reportOf(stored.hierarchy, NodeId{2}, before.scans - 1);
+    report.existence.clear();
+    writer.append(report);
+    writer.commit({stored.hierarchy, {}, before.scans, before.input});
+  }
+  BuildRun::scene(writer);
 }
 
 void expectWholeMap(const std::filesystem::path& map, const std::string& when) {

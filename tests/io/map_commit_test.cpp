@@ -109,6 +109,18 @@ bool failAt(int n, const std::filesystem::path& directory, MapOpenMode mode,
   return steps > n;
 }
 
+/// Kills a process at step `n` of a session; false if it had fewer.
+bool killAt(int n, const std::filesystem::path& directory, MapOpenMode mode,
+            const std::function<void(MapDirectory&)>& session) {
+  const pid_t child = ::fork();
+  if (child == 0) {
+    ::_exit(failAt(n, directory, mode, session, [] { ::raise(SIGKILL); }) ? 1 : 0);
+  }
+  int status = 0;
+  EXPECT_EQ(::waitpid(child, &status, 0), child);
+  return WIFSIGNALED(status);
+}
+
 TEST_F(MapCommit, EveryFailedStepLeavesAWholeMap) {
   int failures = 0;
   for (bool more = true; more; ++failures) {
@@ -160,16 +172,8 @@ TEST_F(MapCommit, KilledAtAnyStepThenContinuedGivesTheSameBytes) {
   int kills = 0;
   for (bool more = true; more; kills += 3) {
     const auto directory = map("killed" + std::to_string(kills));
-    const pid_t child = ::fork();
-    if (child == 0) {
-      const bool reached = failAt(
-          kills, directory, MapOpenMode::create, [](MapDirectory& writer) { BuildRun(5).all(writer); },
-          [] { ::raise(SIGKILL); });
-      ::_exit(reached ? 1 : 0);
-    }
-    int status = 0;
-    ASSERT_EQ(::waitpid(child, &status, 0), child);
-    more = WIFSIGNALED(status);
+    more =
+        killAt(kills, directory, MapOpenMode::create, [](MapDirectory& writer) { BuildRun(5).all(writer); });
     if (std::filesystem::exists(directory / "hierarchy.yaml")) {
       test::expectWholeMap(directory, "killed at step " + std::to_string(kills));
     }
@@ -182,6 +186,90 @@ TEST_F(MapCommit, KilledAtAnyStepThenContinuedGivesTheSameBytes) {
   EXPECT_GT(kills, 30);
 }
 
+/// A longer log takes events back that the end of the shorter one has added.
+TEST_F(MapCommit, KilledAtAnyStepOfALongerLog) {
+  for (const std::uint64_t scans : {2U, 3U}) {
+    MapDirectory writer(map("log" + std::to_string(scans)), mapOptions(MapOpenMode::create));
+    BuildRun(5).log(writer, scans);
+  }
+  const auto expected = contents(map("log3"));
+  int kills = 0;
+  for (bool more = true; more; ++kills) {
+    const auto directory = map("killed" + std::to_string(kills));
+    const std::string when = "killed at step " + std::to_string(kills);
+    std::filesystem::copy(map("log2"), directory, std::filesystem::copy_options::recursive);
+    more = killAt(kills, directory, MapOpenMode::resume,
+                  [](MapDirectory& writer) { BuildRun::finishLog(writer, 5); });
+    test::expectWholeMap(directory, when);
+    EXPECT_TRUE(checkMap(directory).damage.empty()) << when;  // kept states, too
+    {
+      MapDirectory writer(directory, mapOptions(MapOpenMode::resume));
+      BuildRun::finishLog(writer, 5);
+    }
+    ASSERT_EQ(contents(directory), expected) << when;
+  }
+  EXPECT_GT(kills, 30);
+}
+
+TEST_F(MapCommit, KilledAtAnyStepOfAnEdit) {
+  {
+    MapDirectory writer(map(), mapOptions(MapOpenMode::create));
+    BuildRun(5).log(writer, 3);
+  }
+  const std::string unedited = test::readText(map() / "hierarchy.yaml");
+  std::map<std::string, std::string> expected;
+  int kills = 0;
+  for (bool more = true; more; ++kills) {
+    const auto directory = map("killed" + std::to_string(kills));
+    const std::string when = "killed at step " + std::to_string(kills);
+    std::filesystem::copy(map(), directory, std::filesystem::copy_options::recursive);
+    more = killAt(kills, directory, MapOpenMode::edit, test::editMap);
+    EXPECT_TRUE(checkMap(directory).damage.empty()) << when;
+    EXPECT_TRUE(readManifest(directory).edits == 1 ||
+                test::readText(directory / "hierarchy.yaml") == unedited)
+        << when;
+    {
+      MapDirectory writer(directory, mapOptions(MapOpenMode::edit));
+      test::editMap(writer);
+    }
+    if (kills == 0) expected = contents(directory);  // killed before it did anything
+    ASSERT_EQ(contents(directory), expected) << when;
+  }
+  EXPECT_GT(kills, 15);
+}
+
+/// The session that goes on after the kill ends before it comes to that scan again.
+TEST_F(MapCommit, AKeptStateOfAnUnfinishedCommitGoes) {
+  const auto directory = map();
+  {
+    MapDirectory writer(directory, mapOptions(MapOpenMode::create));
+    BuildRun(5).log(writer, 1);
+  }
+  const pid_t child = ::fork();
+  if (child == 0) {
+    MapDirectoryOptions options = mapOptions(MapOpenMode::resume);
+    options.before_step = [](std::string_view step, const std::filesystem::path& file) {
+      const bool kept = std::filesystem::exists(file.parent_path() / "hierarchy-000001.yaml");
+      if (kept && step == "rename" && file.filename() == "hierarchy.yaml") ::raise(SIGKILL);
+    };
+    MapDirectory writer(directory, options);
+    BuildRun::finishLog(writer, 5);
+    ::_exit(0);
+  }
+  int status = 0;
+  ASSERT_EQ(::waitpid(child, &status, 0), child);
+  ASSERT_TRUE(WIFSIGNALED(status));
+  ASSERT_TRUE(std::filesystem::exists(directory / "hierarchy-000001.yaml"));
+  EXPECT_TRUE(checkMap(directory).damage.empty());
+  test::Rng rng(1);
+  const MapHierarchy hierarchy = test::randomHierarchy(rng, 1);
+  {
+    MapDirectory writer(directory, mapOptions(MapOpenMode::resume));
+    writer.commit({hierarchy, {}, 1, "log"});
+  }
+  EXPECT_TRUE(checkMap(directory).damage.empty());
+}
+
 TEST_F(MapCommit, OverwritingKeepsTheOldMapUntilTheNewOneIsThere) {
   undisturbed(6);
   const auto expected = undisturbed(7);
@@ -189,16 +277,8 @@ TEST_F(MapCommit, OverwritingKeepsTheOldMapUntilTheNewOneIsThere) {
   for (bool more = true; more; kills += 5) {
     const auto directory = map("over" + std::to_string(kills));
     std::filesystem::copy(map("undisturbed6"), directory, std::filesystem::copy_options::recursive);
-    const pid_t child = ::fork();
-    if (child == 0) {
-      const bool reached = failAt(
-          kills, directory, MapOpenMode::overwrite, [](MapDirectory& writer) { BuildRun(7).all(writer); },
-          [] { ::raise(SIGKILL); });
-      ::_exit(reached ? 1 : 0);
-    }
-    int status = 0;
-    ASSERT_EQ(::waitpid(child, &status, 0), child);
-    more = WIFSIGNALED(status);
+    more = killAt(kills, directory, MapOpenMode::overwrite,
+                  [](MapDirectory& writer) { BuildRun(7).all(writer); });
     test::expectWholeMap(directory, "killed at step " + std::to_string(kills));
     if (kills % 2 == 0) {  // the old or the new map can be continued
       const MapDirectory writer(directory, mapOptions(MapOpenMode::resume));

@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <cerrno>
+#include <functional>
 #include <optional>
 #include <ostream>
 
@@ -30,14 +31,16 @@ class MapFaults : public ::testing::TestWithParam<Fault> {
  protected:
   std::filesystem::path map(const std::string& name) const { return folder_.path() / name; }
 
+  using Session = std::function<void(MapDirectory&)>;
+
   /// Runs a session with call `n` failing. @return whether there was such a call
-  bool failAt(int n, const std::filesystem::path& directory, MapOpenMode mode, std::uint64_t seed) const {
+  bool failAt(int n, const std::filesystem::path& directory, MapOpenMode mode, const Session& session) const {
     std::optional<FailingCall> fault;
     std::optional<MapDirectory> writer;
     fault.emplace(n, GetParam().error, GetParam().short_write);
     try {
       writer.emplace(directory, mapOptions(mode));
-      BuildRun(seed).all(*writer);
+      session(*writer);
     } catch (const FileError& error) {
       EXPECT_TRUE(fault->reached()) << error.what();
     }
@@ -59,7 +62,7 @@ TEST_P(MapFaults, OfANewMap) {
   for (bool more = true; more; ++n) {
     const auto directory = map("failed" + std::to_string(n));
     const std::string when = "after call " + std::to_string(n);
-    more = failAt(n, directory, MapOpenMode::create, 3);
+    more = failAt(n, directory, MapOpenMode::create, [](auto& writer) { BuildRun(3).all(writer); });
     if (std::filesystem::exists(directory / "hierarchy.yaml")) test::expectWholeMap(directory, when);
     {
       MapDirectory writer(directory, mapOptions(MapOpenMode::resume));
@@ -81,7 +84,7 @@ TEST_P(MapFaults, OfAMapThatReplacesAnother) {
   for (bool more = true; more; ++n) {
     const auto directory = map("over" + std::to_string(n));
     std::filesystem::copy(map("6"), directory, std::filesystem::copy_options::recursive);
-    more = failAt(n, directory, MapOpenMode::overwrite, 7);
+    more = failAt(n, directory, MapOpenMode::overwrite, [](auto& writer) { BuildRun(7).all(writer); });
     test::expectWholeMap(directory, "after call " + std::to_string(n));
     {
       MapDirectory writer(directory, mapOptions(MapOpenMode::overwrite));
@@ -91,6 +94,65 @@ TEST_P(MapFaults, OfAMapThatReplacesAnother) {
     std::filesystem::remove_all(directory);
   }
   EXPECT_GT(n, 100);
+}
+
+/// A longer log takes events back that the end of the shorter one has added.
+TEST_P(MapFaults, OfAMapThatIsContinued) {
+  for (const std::uint64_t scans : {2U, 3U}) {
+    MapDirectory writer(map(std::to_string(scans)), mapOptions(MapOpenMode::create));
+    BuildRun(8).log(writer, scans);
+  }
+  const auto expected = contents(map("3"));
+  const auto session = [](MapDirectory& writer) { BuildRun::finishLog(writer, 8); };
+  int n = 0;
+  for (bool more = true; more; ++n) {
+    const auto directory = map("longer" + std::to_string(n));
+    const std::string when = "after call " + std::to_string(n);
+    std::filesystem::copy(map("2"), directory, std::filesystem::copy_options::recursive);
+    more = failAt(n, directory, MapOpenMode::resume, session);
+    test::expectWholeMap(directory, when);
+    {
+      MapDirectory writer(directory, mapOptions(MapOpenMode::resume));
+      test::expectWholeMap(directory, when + ", opened again");
+      session(writer);
+    }
+    ASSERT_EQ(contents(directory), expected) << when;
+    std::filesystem::remove_all(directory);
+  }
+  EXPECT_GT(n, 50);
+}
+
+TEST_P(MapFaults, OfAnEdit) {
+  const auto directory = map("map");
+  {
+    MapDirectory writer(directory, mapOptions(MapOpenMode::create));
+    BuildRun(9).log(writer, 3);
+  }
+  const auto unedited = contents(directory);
+  std::filesystem::copy(directory, map("edited"), std::filesystem::copy_options::recursive);
+  {
+    MapDirectory writer(map("edited"), mapOptions(MapOpenMode::edit));
+    test::editMap(writer);
+  }
+  const auto expected = contents(map("edited"));
+  int n = 0;
+  for (bool more = true; more; ++n) {
+    const std::string when = "after call " + std::to_string(n);
+    const auto failed = map("edit" + std::to_string(n));
+    std::filesystem::copy(directory, failed, std::filesystem::copy_options::recursive);
+    more = failAt(n, failed, MapOpenMode::edit, test::editMap);
+    test::expectWholeMap(failed, when);
+    if (readManifest(failed).edits == 0) {
+      EXPECT_EQ(contents(failed).at("hierarchy.yaml"), unedited.at("hierarchy.yaml")) << when;
+    }
+    {
+      MapDirectory writer(failed, mapOptions(MapOpenMode::edit));
+      test::editMap(writer);
+    }
+    ASSERT_EQ(contents(failed), expected) << when;
+    std::filesystem::remove_all(failed);
+  }
+  EXPECT_GT(n, 30);
 }
 
 INSTANTIATE_TEST_SUITE_P(All, MapFaults,

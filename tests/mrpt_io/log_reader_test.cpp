@@ -4,6 +4,8 @@
 #include <filesystem>
 
 #include "hoctomap/geometry/Errors.h"
+#include "hoctomap/mrpt_io/FileHash.h"
+#include "hoctomap/mrpt_io/LogReader.h"
 #include "log_objects.h"
 
 namespace hoctomap {
@@ -216,6 +218,42 @@ TEST(LogReader, ExternalNamesMustStayInTheImagesFolder) {
     const std::string error = errorOf<InputError>([&] { readLog(options); });
     EXPECT_NE(error.find("external file"), std::string::npos) << name << ": " << error;
   }
+}
+
+TEST(LogReader, FilesBesideALogAreAPartOfWhatItIsKnownBy) {
+  const Folder folder;
+  std::filesystem::create_directories(folder.path / "log_Images");
+  DepthSpec inside;
+  DepthSpec outside;
+  outside.external = "range.bin";
+  auto options =
+      optionsFor(folder.write("log.rawlog", test::depthObject(inside) + test::depthObject(outside)));
+  options.poses = "identity";
+  const auto put = [&](const std::string& name, const std::string& content) {
+    static_cast<void>(folder.write("log_Images/" + name, content));
+  };
+  const auto identity = [&] {
+    ReadProgress progress;
+    return LogReader(options, progress).header().log_sha256.at(0);
+  };
+  const std::string missing = identity();
+  put("range.bin", "some content");
+  const std::string some = identity();
+  put("range.bin", "same length!");
+  const std::string other = identity();
+  EXPECT_NE(some, missing);
+  EXPECT_NE(other, some);
+  EXPECT_NE(other, missing);
+  put("range.bin", "some content");
+  put("nobody_names_me.bin", "x");
+  EXPECT_EQ(identity(), some);
+}
+
+TEST(LogReader, ALogWithoutFilesBesideItIsKnownByItsBytes) {
+  const Folder folder;
+  const auto options = optionsFor(folder.write("log.rawlog", test::sweep(2)));
+  EXPECT_EQ(only<StreamHeader>(readLog(options)).at(0).log_sha256,
+            (std::vector<std::string>{sha256OfFile(options.logs[0])}));
 }
 
 TEST(LogReader, NullObjectsAreCountedAndPassedOver) {

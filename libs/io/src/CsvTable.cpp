@@ -19,6 +19,10 @@ void CsvTable::resume(const std::filesystem::path& directory, const FileRecord& 
   fresh_ = false;
 }
 
+void CsvTable::resumeAnew(const std::filesystem::path& directory, const FileRecord& record) {
+  pending_ = readChecked(directory, {name_, record.bytes, record.sha256}, true);
+}
+
 void CsvTable::resume(const std::filesystem::path& directory,
                       const std::function<bool(std::string_view)>& keep) {
   if (!std::filesystem::exists(directory / name_)) return;

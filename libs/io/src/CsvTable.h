@@ -19,12 +19,19 @@ class CsvTable {
   /// A new table; replaces the file at its first commit.
   CsvTable(std::string name, std::string_view header);
 
-  /// Goes on with the part of the file that `record` vouches for.
+  /// Goes on with the part of the file that `record` vouches for. What follows it is no part of the map.
   /// @throws MapError if that part is damaged.
   void resume(const std::filesystem::path& directory, const FileRecord& record);
 
+  /// The same if rows that follow are part of the map: the file is left as it is, and replaced at the first
+  /// commit.
+  void resumeAnew(const std::filesystem::path& directory, const FileRecord& record);
+
   /// Goes on with those rows of the file for which `keep(first field)`; for files no manifest vouches for.
   void resume(const std::filesystem::path& directory, const std::function<bool(std::string_view)>& keep);
+
+  /// Whether the next commit replaces the file: what a map needs of it has to be elsewhere by then.
+  [[nodiscard]] bool replaces() const { return fresh_; }
 
   /// Adds a row, given without its line end.
   void add(const std::string& row) { pending_ += row + '\n'; }

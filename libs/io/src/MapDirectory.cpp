@@ -70,6 +70,7 @@ void MapDirectory::Session::addRow(const TimingRow& row) {
 
 void MapDirectory::Session::commit(const MapState& state) {
   if (overwriting_) makeWay();
+  if (committed_ && events_.replaces()) committed_ = setEventsAside(disk_, directory_, *committed_);
   disk_.makeDirectory(directory_ / kNodesFolder);
   Manifest manifest = describe(state);
   if (!config_written_) disk_.replace(directory_ / kConfigName, options_.config);

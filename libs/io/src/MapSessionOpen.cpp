@@ -115,7 +115,11 @@ void MapDirectory::Session::resume() {
   if (!edits) checkSameConfig(manifest);
   manifest = bringBack(disk_, directory_, std::move(manifest));
   if (edits) options_.config = readChecked(directory_, manifest.config, false);
-  events_.resume(directory_, edits ? manifest.events : manifest.events_before_end.value_or(manifest.events));
+  if (manifest.events_before_end && !edits) {
+    events_.resumeAnew(directory_, *manifest.events_before_end);
+  } else {
+    events_.resume(directory_, manifest.events);
+  }
   existence_.resume(directory_, manifest.existence);
   timing_.resume(directory_, [&](std::string_view scan) {
     const auto number = parseCount(scan);
@@ -126,6 +130,7 @@ void MapDirectory::Session::resume() {
   }
   removed_before_ = manifest.removed;
   for (const std::uint64_t scan : snapshotScans(directory_)) {
+    if (scan >= manifest.scans) continue;
     const auto file = directory_ / snapshotName(scan);
     for (const FileRecord& kept : parseManifest(readWholeFile(file), file.string()).files()) {
       kept_files_.insert(kept.path);
@@ -158,8 +163,14 @@ void MapDirectory::Session::lookAtOldMap() {
   }
 }
 
-/// What a killed session has left behind.
+/// What a killed session has left behind. A kept state of a commit that was not finished goes, too: the rows
+/// of the tables that it needs are about to be overwritten.
 void MapDirectory::Session::removeLeftovers() {
+  for (const std::uint64_t scan : snapshotScans(directory_)) {
+    if (scan < committed_->scans) continue;
+    disk_.remove(directory_ / snapshotName(scan));
+    disk_.syncDirectory(directory_);
+  }
   removePrevious(disk_, directory_, &*committed_);
   removeUnnamedFiles();
 }

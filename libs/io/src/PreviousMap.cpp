@@ -19,6 +19,7 @@ bool isAside(const std::string& path) {
 
 void forEachFile(Manifest& manifest, const std::function<void(FileRecord&)>& visit) {
   for (FileRecord* file : {&manifest.config, &manifest.events, &manifest.existence}) visit(*file);
+  if (manifest.events_before_end) visit(*manifest.events_before_end);
   if (manifest.seams) visit(*manifest.seams);
   if (manifest.scene) visit(*manifest.scene);
   for (auto* list : {&manifest.nodes, &manifest.removed, &manifest.waiting}) {
@@ -27,6 +28,10 @@ void forEachFile(Manifest& manifest, const std::function<void(FileRecord&)>& vis
       visit(node.bt);
     }
   }
+}
+
+std::string nameAside(const FileRecord& file) {
+  return kPrefix + std::filesystem::path(file.path).filename().string();
 }
 
 /// Links the file to its new name and changes the record. A file that is missing already stays missing.
@@ -49,10 +54,18 @@ void setAside(const Disk& disk, const std::filesystem::path& directory, const Ma
   disk.makeDirectory(directory / kNodesFolder);
   disk.makeDirectory(directory / kPreviousFolder);
   forEachFile(aside, [&](FileRecord& file) {
-    if (isAside(file.path)) return;
-    rename(disk, directory, file, kPrefix + std::filesystem::path(file.path).filename().string());
+    if (!isAside(file.path)) rename(disk, directory, file, nameAside(file));
   });
   commitNames(disk, directory, aside);
+}
+
+Manifest setEventsAside(const Disk& disk, const std::filesystem::path& directory, Manifest manifest) {
+  if (isAside(manifest.events.path)) return manifest;
+  disk.makeDirectory(directory / kPreviousFolder);
+  rename(disk, directory, manifest.events, nameAside(manifest.events));
+  if (manifest.events_before_end) manifest.events_before_end->path = manifest.events.path;
+  commitNames(disk, directory, manifest);
+  return manifest;
 }
 
 Manifest bringBack(const Disk& disk, const std::filesystem::path& directory, Manifest manifest) {

@@ -15,7 +15,12 @@ namespace hoctomap {
 /// Gives every file of the map a name under `previous/`, and commits a manifest with these names.
 void setAside(const Disk& disk, const std::filesystem::path& directory, const Manifest& manifest);
 
-/// The opposite, for a map that is to be continued after all. Does nothing if no file is set aside.
+/// The same with `events.csv` alone, for a commit that takes rows back which the map has.
+/// @returns the manifest of the map, as it is on disk now.
+[[nodiscard]] Manifest setEventsAside(const Disk& disk, const std::filesystem::path& directory,
+                                      Manifest manifest);
+
+/// The opposite of both, for a map that is to be continued after all. Does nothing if no file is set aside.
 /// @returns the manifest with the usual names.
 [[nodiscard]] Manifest bringBack(const Disk& disk, const std::filesystem::path& directory, Manifest manifest);
 

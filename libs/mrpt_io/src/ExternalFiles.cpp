@@ -10,10 +10,12 @@
 
 #include <cerrno>
 #include <cstring>
+#include <utility>
+#include <vector>
 
 #include "hoctomap/geometry/Errors.h"
-#include "hoctomap/io/ChildProcess.h"
 #include "hoctomap/io/EscapedText.h"
+#include "hoctomap/io/Sha256.h"
 
 namespace hoctomap {
 
@@ -39,7 +41,7 @@ std::filesystem::path imagesFolder(const std::filesystem::path& log) {
   return beside(stem + "_Images");
 }
 
-ExternalFile::ExternalFile(const std::filesystem::path& folder, const std::string& name) {
+ExternalFile::ExternalFile(const std::filesystem::path& folder, const std::string& name) : name_(name) {
   const auto refuse = [&](const std::string& why) {
     throw InputError("external file '" + escapedText(name, 300) + "': " + why);
   };
@@ -54,13 +56,26 @@ ExternalFile::ExternalFile(const std::filesystem::path& folder, const std::strin
 
   const UniqueFd root(::open(folder.c_str(), O_PATH | O_DIRECTORY | O_CLOEXEC));
   if (root.get() < 0) return;
-  const UniqueFd file(openBeneath(root.get(), name));
+  UniqueFd file(openBeneath(root.get(), name));
   if (file.get() < 0) {
     if (errno == ELOOP || errno == EXDEV) refuse("the name leads through a symbolic link");
     return;
   }
   struct stat info {};
-  exists_ = ::fstat(file.get(), &info) == 0 && S_ISREG(info.st_mode);
+  if (::fstat(file.get(), &info) == 0 && S_ISREG(info.st_mode)) file_ = std::move(file);
+}
+
+std::string ExternalFile::sha256() const {
+  Sha256 hash;
+  std::vector<char> buffer(std::size_t{1} << 18);
+  for (off_t at = 0;;) {
+    const ssize_t size = ::pread(file_.get(), buffer.data(), buffer.size(), at);
+    if (size < 0 && errno == EINTR) continue;
+    if (size < 0) throw InputError("external file '" + escapedText(name_, 300) + "': cannot be read");
+    if (size == 0) return hash.hex();
+    hash.add({buffer.data(), static_cast<std::size_t>(size)});
+    at += size;
+  }
 }
 
 bool loadExternals(const mrpt::obs::CObservation& observation, const std::filesystem::path& folder) {

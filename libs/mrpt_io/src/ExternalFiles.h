@@ -6,6 +6,8 @@
 #include <filesystem>
 #include <string>
 
+#include "hoctomap/io/ChildProcess.h"
+
 namespace hoctomap {
 
 /// The folder of a log's external files by MRPT's habit: `NAME_Images` beside `NAME.rawlog`, else `Images`.
@@ -17,10 +19,14 @@ class ExternalFile {
  public:
   /// @throws InputError for an absolute name, one with `..`, and one that leads through a symbolic link.
   ExternalFile(const std::filesystem::path& folder, const std::string& name);
-  [[nodiscard]] bool exists() const { return exists_; }
+  [[nodiscard]] bool exists() const { return file_.get() >= 0; }
+  /// Of its bytes, in hex.
+  /// @throws InputError if it cannot be read.
+  [[nodiscard]] std::string sha256() const;
 
  private:
-  bool exists_ = false;
+  std::string name_;
+  UniqueFd file_;  ///< none if there is no such regular file
 };
 
 /// Loads what the observation stores outside, after its names were checked. @return false if that fails

@@ -14,6 +14,7 @@
 #include "ScanSelector.h"
 #include "hoctomap/geometry/Errors.h"
 #include "hoctomap/io/EscapedText.h"
+#include "hoctomap/io/Sha256.h"
 #include "hoctomap/mrpt_io/FileHash.h"
 
 namespace hoctomap {
@@ -153,7 +154,11 @@ void LogReader::Passes::makeHeader() {
     }
   }
   header.pose_source = poses->description();
-  for (const auto& log : options.logs) header.log_sha256.push_back(sha256OfFile(log));
+  for (std::size_t log = 0; log < surveys.size(); ++log) {
+    const std::string own = sha256OfFile(options.logs[log]);
+    const std::string& external = surveys[log].external_sha256;
+    header.log_sha256.push_back(external.empty() ? own : sha256Hex(own + ' ' + external));
+  }
   for (const auto& wanted : options.sensors) {
     if (std::none_of(header.sensors.begin(), header.sensors.end(),
                      [&](const auto& s) { return s.label == wanted; }))

@@ -5,9 +5,12 @@
 #include <mrpt/obs/CObservationRobotPose.h>
 
 #include <algorithm>
+#include <utility>
 
+#include "ExternalFiles.h"
 #include "ScanConverter.h"
 #include "hoctomap/geometry/Errors.h"
+#include "hoctomap/io/Sha256.h"
 
 namespace hoctomap {
 
@@ -33,6 +36,35 @@ void countSensor(LogSurvey& survey, const mrpt::obs::CObservation& observation) 
   if (sensor->remark.empty()) sensor->remark = remarkOn(observation);
 }
 
+/// Names and contents of the files beside a log, in the order in which it names them.
+class ExternalContents {
+ public:
+  explicit ExternalContents(std::filesystem::path folder) : folder_(std::move(folder)) {}
+
+  void add(const mrpt::obs::CObservation& observation) {
+    for (const std::string& name : externalNames(observation)) {
+      any_ = true;
+      hash_.add(name + '\n' + contentOf(name) + '\n');
+    }
+  }
+  [[nodiscard]] std::string sha256() const { return any_ ? hash_.copy().hex() : std::string(); }
+
+ private:
+  /// Names that are not allowed are reported when the scan is read.
+  [[nodiscard]] std::string contentOf(const std::string& name) const {
+    try {
+      const ExternalFile file(folder_, name);
+      return file.exists() ? file.sha256() : "missing";
+    } catch (const InputError&) {
+      return "refused";
+    }
+  }
+
+  std::filesystem::path folder_;
+  Sha256 hash_;
+  bool any_ = false;
+};
+
 /// Keeps the poses of an observation; a scan is counted.
 void take(LogSurvey& survey, const Observed& observed) {
   const mrpt::obs::CObservation& observation = *observed.observation;
@@ -57,11 +89,12 @@ void take(LogSurvey& survey, const Observed& observed) {
   }
 }
 
-void readAll(LogSurvey& survey, ObservationReader& reader) {
+void readAll(LogSurvey& survey, ObservationReader& reader, ExternalContents& externals) {
   try {
     while (auto observed = reader.next()) {
       try {
         take(survey, *observed);
+        externals.add(*observed->observation);
       } catch (const InputError& error) {
         throw reader.errorHere<InputError>(error.what());
       } catch (const LimitError& error) {
@@ -79,7 +112,9 @@ void readAll(LogSurvey& survey, ObservationReader& reader) {
 LogSurvey surveyLog(const LogReadOptions& options, std::uint32_t log, ReadProgress& progress) {
   ObservationReader reader(options, log, progress);
   LogSurvey survey;
-  readAll(survey, reader);
+  ExternalContents externals(imagesFolder(options.logs[log]));
+  readAll(survey, reader, externals);
+  survey.external_sha256 = externals.sha256();
   survey.compressed = reader.compressed();
   survey.simple_map = reader.hasSimpleMap();
   survey.objects = reader.objectsRead();

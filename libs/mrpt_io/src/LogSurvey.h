@@ -49,6 +49,8 @@ struct LogSurvey {
   std::optional<double> first_stamp;  ///< seconds since the epoch, of the scans
   std::optional<double> last_stamp;
   std::optional<Damage> damage;
+  /// Over names and contents of the files that scans store outside of the log, in hex; empty if none does.
+  std::string external_sha256;
 };
 
 /// Reads log number `log` once; damage is reported in the result, not thrown.

@@ -81,31 +81,25 @@ SensorScan depthFrom(const CObservation3DRangeScan& scan) {
   return image;
 }
 
-SensorScan convert(CObservation3DRangeScan& scan, const std::filesystem::path& folder) {
-  if (scan.hasRangeImage && scan.rangeImage_isExternallyStored()) {
-    const ExternalFile file(folder, scan.rangeImage_getExternalStorageFile(""));
-    if (!file.exists()) return Unusable{"missing external file"};
-    for (const auto& [layer, unused] : scan.rangeImageOtherLayers) {  // loaded along with the first one
-      const ExternalFile other(folder, scan.rangeImage_getExternalStorageFile(layer));
-      if (!other.exists()) return Unusable{"missing external file"};
-    }
-  }
-  if (scan.hasPoints3D && scan.points3D_isExternallyStored()) {
-    const ExternalFile file(folder, scan.points3D_getExternalStorageFile());
-    if (!file.exists()) return Unusable{"missing external file"};
+/// Loads what the scan stores outside. @return why it cannot be used, if it cannot
+std::optional<Unusable> loadChecked(const mrpt::obs::CObservation& scan,
+                                    const std::filesystem::path& folder) {
+  for (const std::string& name : externalNames(scan)) {
+    if (!ExternalFile(folder, name).exists()) return Unusable{"missing external file"};
   }
   if (!loadExternals(scan, folder)) return Unusable{"unreadable external file"};
+  return std::nullopt;
+}
+
+SensorScan convert(CObservation3DRangeScan& scan, const std::filesystem::path& folder) {
+  if (auto unusable = loadChecked(scan, folder)) return *unusable;
   if (scan.hasRangeImage && scan.rangeImage.size() > 0) return depthFrom(scan);
   if (scan.hasPoints3D) return cloudFrom(scan.points3D_x, scan.points3D_y, scan.points3D_z);
   return Unusable{"neither a range image nor points"};
 }
 
 SensorScan convert(CObservationPointCloud& scan, const std::filesystem::path& folder) {
-  if (scan.isExternallyStored()) {
-    const ExternalFile file(folder, scan.getExternalStorageFile());
-    if (!file.exists()) return Unusable{"missing external file"};
-  }
-  if (!loadExternals(scan, folder)) return Unusable{"unreadable external file"};
+  if (auto unusable = loadChecked(scan, folder)) return *unusable;
   if (!scan.pointcloud) return Unusable{"neither a range image nor points"};
   const auto& map = *scan.pointcloud;
   return cloudFrom(map.getPointsBufferRef_x(), map.getPointsBufferRef_y(), map.getPointsBufferRef_z());
@@ -162,6 +156,22 @@ bool isScan(const mrpt::obs::CObservation& observation) {
          dynamic_cast<const CObservationPointCloud*>(&observation) != nullptr ||
          dynamic_cast<const CObservationVelodyneScan*>(&observation) != nullptr ||
          dynamic_cast<const CObservation2DRangeScan*>(&observation) != nullptr;
+}
+
+std::vector<std::string> externalNames(const mrpt::obs::CObservation& observation) {
+  std::vector<std::string> names;
+  if (const auto* scan = dynamic_cast<const CObservation3DRangeScan*>(&observation)) {
+    if (scan->hasRangeImage && scan->rangeImage_isExternallyStored()) {
+      names.push_back(scan->rangeImage_getExternalStorageFile(""));
+      for (const auto& [layer, unused] : scan->rangeImageOtherLayers)  // loaded along with the first one
+        names.push_back(scan->rangeImage_getExternalStorageFile(layer));
+    }
+    if (scan->hasPoints3D && scan->points3D_isExternallyStored())
+      names.push_back(scan->points3D_getExternalStorageFile());
+  } else if (const auto* cloud = dynamic_cast<const CObservationPointCloud*>(&observation)) {
+    if (cloud->isExternallyStored()) names.push_back(cloud->getExternalStorageFile());
+  }
+  return names;
 }
 
 std::pair<std::uint32_t, std::uint32_t> imageSize(const mrpt::obs::CObservation& observation) {

@@ -6,6 +6,7 @@
 #include <filesystem>
 #include <string>
 #include <variant>
+#include <vector>
 
 #include "hoctomap/geometry/Measurement.h"
 
@@ -24,6 +25,9 @@ using SensorScan = std::variant<DepthImage, PointCloud, Unusable>;
 
 /// Size of the range image, {0, 0} if there is none or it is stored outside the log.
 [[nodiscard]] std::pair<std::uint32_t, std::uint32_t> imageSize(const mrpt::obs::CObservation& observation);
+
+/// The files with points or ranges that the observation stores outside of the log, as it names them.
+[[nodiscard]] std::vector<std::string> externalNames(const mrpt::obs::CObservation& observation);
 
 /// The returns of one observation; external files are read from `images_folder` and nowhere else.
 /// @throws InputError if an external file lies outside of the folder, LimitError beyond 10^7 points.

@@ -17,8 +17,8 @@ using Pose = mrpt::poses::CPose3D;
 [[nodiscard]] Eigen::Isometry3d toIsometry(const Pose& pose);
 
 /// The pose of a 4x4 homogeneous matrix.
-/// @throws std::invalid_argument if it is not finite, not orthonormal to 1e-6, a reflection, or its last row
-///         is not (0, 0, 0, 1).
+/// @throws std::invalid_argument if it is not finite, not orthonormal to 1e-6, a reflection, its last row is
+///         not (0, 0, 0, 1), or it is more than 1000 km from the origin.
 [[nodiscard]] Pose poseFromMatrix(const Eigen::Matrix4d& matrix);
 
 /// The nearest pose whose rotation is orthonormal to rounding: keeps chains of compositions from drifting.

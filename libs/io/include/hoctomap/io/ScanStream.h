@@ -53,7 +53,7 @@ struct StreamHeader {
   std::uint64_t total_scans = 0;        ///< all 3D scans of the logs
   std::uint64_t chosen_scans = 0;       ///< at most this many will come, as scans or as skipped scans
   std::string pose_source;              ///< for the log of the run
-  std::vector<std::string> log_sha256;  ///< hex, over the bytes of each log, in order; may be empty
+  std::vector<std::string> log_sha256;  ///< hex, of each log with the files beside it that it names; may be empty
   std::vector<Sensor> sensors;
 };
 
