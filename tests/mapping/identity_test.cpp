@@ -3,7 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "ScriptedMapper.h"
-#include "hoctomap/mapping/SeamVotes.h"
+#include "hoctomap/mapping/ScanSeams.h"
 
 namespace hoctomap {
 namespace {
@@ -144,10 +144,10 @@ TEST(SeamVotes, CountScansInWhateverOrderTheyCome) {
   const std::vector<const PointCloud*> joined{&whole};
   SeamVotes a;
   SeamVotes b;
-  EXPECT_EQ(a.add(apart, {}, kOrigin), SeamVotes::cellsOf(whole));
-  a.add(joined, {}, kOrigin);
-  b.add(joined, {}, kOrigin);
-  b.add(apart, {}, kOrigin);
+  EXPECT_EQ(a.add(scanSeams(apart, {}, kOrigin)), SeamVotes::cellsOf(whole));
+  a.add(scanSeams(joined, {}, kOrigin));
+  b.add(scanSeams(joined, {}, kOrigin));
+  b.add(scanSeams(apart, {}, kOrigin));
   EXPECT_EQ(a, b);
   EXPECT_TRUE(a.meet(SeamVotes::cellsOf(kLeft), SeamVotes::cellsOf(kRight)));
   EXPECT_TRUE(a.meet(SeamVotes::cellsOf(kRight), SeamVotes::cellsOf(kLeft)));
@@ -156,7 +156,7 @@ TEST(SeamVotes, CountScansInWhateverOrderTheyCome) {
 TEST(SeamVotes, WhatDoesNotMeetHasNoSeam) {
   const PointCloud far = front(0.2, 0.3, 0.7, 0.8);
   SeamVotes seams;
-  seams.add(std::vector<const PointCloud*>{&kLeft, &far}, {}, kOrigin);
+  seams.add(scanSeams(std::vector<const PointCloud*>{&kLeft, &far}, {}, kOrigin));
   EXPECT_FALSE(seams.meet(SeamVotes::cellsOf(kLeft), SeamVotes::cellsOf(far)));
 }
 
@@ -165,7 +165,7 @@ TEST(SeamVotes, GroundBesideAnObjectVotesForASeamOnly) {
   const std::vector<const PointCloud*> ground{&kRight};
   SeamVotes seams;
   // The object's cells are shown, the ground's are none of an object.
-  EXPECT_EQ(seams.add(object, ground, kOrigin), SeamVotes::cellsOf(kLeft));
+  EXPECT_EQ(seams.add(scanSeams(object, ground, kOrigin)), SeamVotes::cellsOf(kLeft));
   const auto of_ground = SeamVotes::cellsOf(kRight);
   int against = 0;
   for (const auto& [cell, votes] : seams.all()) {
@@ -182,7 +182,7 @@ TEST(SeamVotes, GroundBesideAnObjectVotesForASeamOnly) {
 
 TEST(SeamVotes, WhatIsForgottenLeavesNothing) {
   SeamVotes seams;
-  const auto cells = seams.add(std::vector<const PointCloud*>{&kLeft, &kRight}, {}, kOrigin);
+  const auto cells = seams.add(scanSeams(std::vector<const PointCloud*>{&kLeft, &kRight}, {}, kOrigin));
   const auto left = SeamVotes::cellsOf(kLeft);
   seams.forget(left);
   EXPECT_FALSE(seams.meet(left, SeamVotes::cellsOf(kRight)));

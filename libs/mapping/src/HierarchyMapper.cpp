@@ -30,6 +30,17 @@ double smallerRange(double a, double b) {
   return b < 0.0 ? a : std::min(a, b);
 }
 
+/// What the scan says of where its clusters end.
+ScanSeams seamsBetween(const std::vector<LabelledPart>& parts, const Eigen::Vector3d& origin) {
+  std::vector<const PointCloud*> clusters;
+  std::vector<const PointCloud*> ground;
+  for (const LabelledPart& part : parts) {
+    if (part.structure == Structure::cluster) clusters.push_back(&part.world_points);
+    if (part.structure == Structure::plane) ground.push_back(&part.world_points);
+  }
+  return clusters.empty() ? ScanSeams{} : scanSeams(clusters, ground, origin);
+}
+
 }  // namespace
 
 HierarchyMapper::HierarchyMapper(MappingConfig config, LabelProfiles profiles, MappingStrategies strategies)
@@ -71,24 +82,32 @@ UpdateReport HierarchyMapper::integrate(const Measurement& z, PreparedScan prepa
   {
     const StageTimer timer(report.seconds.associate);
     followMovedObjects(z, parts, evidence, report);
-    if (config_.seam_votes) settleIdentity(z, parts, evidence, report);
+    if (config_.seam_votes) settleIdentity(z, prepared, evidence, report);
   }
 
   // The background first, then planes, then clusters: so that parents exist when their children come.
+  std::vector<LabelledPart*> group;
+  std::vector<NodeId> nodes;
   for (const Structure structure : {Structure::remainder, Structure::plane, Structure::cluster}) {
-    std::vector<LabelledPart*> group;
-    for (auto& part : parts) {
-      if (part.structure == structure) group.push_back(&part);
-    }
     // Step 2: associate each segment to a node, or create one.
-    std::vector<NodeId> nodes;
     {
       const StageTimer timer(report.seconds.associate);
-      nodes = associate(z, group, evidence, report);
+      std::vector<LabelledPart*> found;
+      for (auto& part : parts) {
+        if (part.structure == structure) found.push_back(&part);
+      }
+      const std::vector<NodeId> their_nodes = associate(z, found, evidence, report);
+      group.insert(group.end(), found.begin(), found.end());
+      nodes.insert(nodes.end(), their_nodes.begin(), their_nodes.end());
     }
+    // Nothing that is associated depends on the root's map: it is updated beside the planes'.
+    const bool only_root = std::all_of(nodes.begin(), nodes.end(), [](NodeId id) { return id == kRootId; });
+    if (structure == Structure::remainder && only_root) continue;
     // Step 3: update the nodes' maps.
     const StageTimer timer(report.seconds.update);
     updateMaps(z, group, nodes, report);
+    group.clear();
+    nodes.clear();
   }
 
   // A node that is seen to be gone may have been found elsewhere before; pieces of others join them.
@@ -112,6 +131,7 @@ PreparedScan HierarchyMapper::prepare(const Measurement& z) const {
   {
     const StageTimer timer(seconds);
     prepared.parts = segmentAndLabel(z);
+    if (config_.seam_votes) prepared.seams = seamsBetween(prepared.parts, z.origin());
   }
   prepared.seconds = seconds;
   return prepared;

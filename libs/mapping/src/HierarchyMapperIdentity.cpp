@@ -7,6 +7,7 @@
 #include "NodeEvidence.h"
 #include "NodeRegions.h"
 #include "SurfacePoints.h"
+#include "hoctomap/geometry/ForEachIndex.h"
 #include "hoctomap/geometry/PcaFrame.h"
 
 namespace hoctomap {
@@ -74,21 +75,19 @@ SegmentRegions regionsOf(const PointCloud& world_points, const SurfaceRegions& r
 
 }  // namespace
 
-void HierarchyMapper::settleIdentity(const Measurement& z, std::vector<LabelledPart>& parts,
+void HierarchyMapper::settleIdentity(const Measurement& z, PreparedScan& prepared,
                                      const NodeEvidence& evidence, UpdateReport& report) {
-  std::vector<const PointCloud*> points;
-  std::vector<const PointCloud*> ground;
+  std::vector<LabelledPart>& parts = prepared.parts;
   std::set<NodeId> near;
   for (const LabelledPart& part : parts) {
-    if (part.structure == Structure::plane) ground.push_back(&part.world_points);
     if (part.structure != Structure::cluster) continue;
-    points.push_back(&part.world_points);
     for (const NodeId id : hierarchy_.idsNear(worldBounds(part.box))) {
       if (isOfKind(id, part.label) && !evidence.contradicts(id)) near.insert(id);
     }
   }
-  if (points.empty()) return;
-  const SurfaceRegions regions(seams_, seams_.add(points, ground, z.origin()));
+  const SeamVotes::Cells shown = seams_.add(prepared.seams);
+  if (shown.empty()) return;
+  const SurfaceRegions regions(seams_, shown);
   NodeRegions held(hierarchy_, std::vector<NodeId>(near.begin(), near.end()), regions);
   mergeOwners(z, regions, held, parts, report);
   splitHolders(z, regions, held, report);
@@ -183,10 +182,14 @@ void HierarchyMapper::divideSegments(const SurfaceRegions& regions, const NodeRe
   std::map<std::size_t, Region> most_of_segment;
   std::set<std::size_t> divided;
   std::vector<LabelledPart> settled;
+  std::vector<SegmentRegions> regions_of(parts.size());
+  forEachIndex(parts.size(), [&](std::size_t s) {
+    if (parts[s].structure == Structure::cluster && !parts[s].moved_node)
+      regions_of[s] = regionsOf(parts[s].world_points, regions, held);
+  });
   for (std::size_t s = 0; s < parts.size(); ++s) {
     LabelledPart& part = parts[s];
-    const bool follows = part.structure == Structure::cluster && !part.moved_node;
-    const SegmentRegions found = follows ? regionsOf(part.world_points, regions, held) : SegmentRegions{};
+    const SegmentRegions& found = regions_of[s];
     if (!found.most) {
       settled.push_back(std::move(part));
       continue;
@@ -195,15 +198,21 @@ void HierarchyMapper::divideSegments(const SurfaceRegions& regions, const NodeRe
     if (std::any_of(found.of_point.begin(), found.of_point.end(),
                     [&](const auto& region) { return region != found.most; }))
       divided.insert(s);
+    std::optional<Region> last;
+    Share* share = nullptr;
     for (std::size_t i = 0; i < found.of_point.size(); ++i) {
-      Share& share = shares[*found.of_point[i]];
-      share.points.emplace_back(part.points[i], part.world_points[i]);
-      ++share.segments[s];
+      if (found.of_point[i] != last) {  // neighbours are often of one
+        last = found.of_point[i];
+        share = &shares[*last];
+      }
+      share->points.emplace_back(part.points[i], part.world_points[i]);
+      ++share->segments[s];
     }
   }
   for (auto& [region, share] : shares) {
-    std::sort(share.points.begin(), share.points.end(),
-              [](const auto& a, const auto& b) { return a.first < b.first; });
+    const auto comes_before = [](const auto& a, const auto& b) { return a.first < b.first; };
+    if (!std::is_sorted(share.points.begin(), share.points.end(), comes_before))  // those of one segment are
+      std::sort(share.points.begin(), share.points.end(), comes_before);
     const std::size_t segment =
         std::max_element(share.segments.begin(), share.segments.end(), [](const auto& a, const auto& b) {
           return a.second < b.second;

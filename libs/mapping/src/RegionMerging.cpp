@@ -117,11 +117,7 @@ void RegionMerging::propose(CellIndex a, CellIndex b, const SeamBorder& border) 
 CellIndex RegionMerging::merge(CellIndex a, CellIndex b) {
   if (borders_[a].size() < borders_[b].size()) std::swap(a, b);
   borders_[a].erase(b);
-  for (const auto& [other, border] : borders_[b]) {
-    if (other == a) continue;
-    borders_[a].append(other, border);
-  }
-  borders_[a].settle();
+  borders_[a].take(borders_[b], a);
   for (const auto& [other, border] : borders_[b]) {
     if (other == a) continue;
     const SeamBorder& sum = borders_[a].at(other);

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
+#include <iterator>
 #include <queue>
 #include <utility>
 #include <vector>
@@ -42,14 +43,15 @@ class RegionBorders {
   void append(CellIndex other, const SeamBorder& border) { entries_.push_back({other, border}); }
   void settle() {
     std::sort(entries_.begin(), entries_.end(), isBefore);
-    std::size_t kept = 0;
-    for (std::size_t i = 0; i < entries_.size(); ++i) {
-      if (kept > 0 && entries_[kept - 1].other == entries_[i].other)
-        entries_[kept - 1].border.add(entries_[i].border);
-      else
-        entries_[kept++] = entries_[i];
-    }
-    entries_.resize(kept);
+    addUpEqual();
+  }
+  /// Those of another region, too; but for the one to `except`.
+  void take(const RegionBorders& borders, CellIndex except) {
+    const auto own = static_cast<std::ptrdiff_t>(entries_.size());
+    std::copy_if(borders.entries_.begin(), borders.entries_.end(), std::back_inserter(entries_),
+                 [&](const Entry& entry) { return entry.other != except; });
+    std::inplace_merge(entries_.begin(), entries_.begin() + own, entries_.end(), isBefore);
+    addUpEqual();
   }
 
   [[nodiscard]] std::size_t size() const { return entries_.size(); }
@@ -78,6 +80,16 @@ class RegionBorders {
 
  private:
   static bool isBefore(const Entry& a, const Entry& b) { return a.other < b.other; }
+  void addUpEqual() {
+    std::size_t kept = 0;
+    for (std::size_t i = 0; i < entries_.size(); ++i) {
+      if (kept > 0 && entries_[kept - 1].other == entries_[i].other)
+        entries_[kept - 1].border.add(entries_[i].border);
+      else
+        entries_[kept++] = entries_[i];
+    }
+    entries_.resize(kept);
+  }
   std::vector<Entry> entries_;
 };
 

@@ -49,12 +49,12 @@ class CellGraph {
     constexpr SeamBorder kNeighbours{-1, 1};
     std::vector<CellBorder> borders;
     for (std::size_t d = 0; d < SeamVotes::kDirections; ++d) {
-      forPairs(SeamVotes::partner({}, d), [&](Index i, Index j) {
+      forCellPairs(cells_, SeamVotes::partner({}, d), [&](Index i, Index j) {
         if (votes_[i]->known[d]) borders.push_back({i, j, {votes_[i]->evidence[d], 1}});
       });
     }
     for (int step = 14; step < 27; ++step) {  // half of the 26 neighbours
-      forPairs({step / 9 - 1, step / 3 % 3 - 1, step % 3 - 1}, [&](Index i, Index j) {
+      forCellPairs(cells_, {step / 9 - 1, step / 3 % 3 - 1, step % 3 - 1}, [&](Index i, Index j) {
         borders.push_back({i, j, kNeighbours});
       });
     }
@@ -62,19 +62,6 @@ class CellGraph {
   }
 
  private:
-  /// Calls `visit(i, j)` for all cells j that lie `offset` from a cell i: both in order, so one walk finds
-  /// them.
-  template <typename Visit>
-  void forPairs(const Cell& offset, const Visit& visit) const {
-    Index j = 0;
-    for (Index i = 0; i < size(); ++i) {
-      const Cell other{cells_[i].x + offset.x, cells_[i].y + offset.y, cells_[i].z + offset.z};
-      while (j < size() && cells_[j] < other) ++j;
-      if (j == size()) return;
-      if (cells_[j] == other) visit(i, j);
-    }
-  }
-
   std::vector<Cell> cells_;
   std::vector<const SeamVotes::Votes*> votes_;
 };

@@ -133,7 +133,7 @@ class HierarchyMapper {
   void mergeInto(NodeId whole, NodeId piece, std::uint64_t scan, UpdateReport& report);
   void applyExistence(const Measurement& z, const NodeEvidence& evidence, UpdateReport& report);
   // HierarchyMapperIdentity.cpp
-  void settleIdentity(const Measurement& z, std::vector<LabelledPart>& parts, const NodeEvidence& evidence,
+  void settleIdentity(const Measurement& z, PreparedScan& prepared, const NodeEvidence& evidence,
                       UpdateReport& report);
   [[nodiscard]] bool isOfKind(NodeId id, const Label& label) const;
   void mergeOwners(const Measurement& z, const SurfaceRegions& regions, NodeRegions& held,

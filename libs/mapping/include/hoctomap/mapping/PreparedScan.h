@@ -7,6 +7,7 @@
 #include "hoctomap/geometry/Obb.h"
 #include "hoctomap/hierarchy/Label.h"
 #include "hoctomap/hierarchy/NodeId.h"
+#include "hoctomap/mapping/ScanSeams.h"
 #include "hoctomap/mapping/Segmentation.h"
 
 namespace hoctomap {
@@ -28,6 +29,7 @@ struct LabelledPart {
 /// A scan after the first step of its integration, which does not depend on the map: S(z) and L(z).
 struct PreparedScan {
   std::vector<LabelledPart> parts;
+  ScanSeams seams;       ///< between the parts; empty without `seam_votes`
   double seconds = 0.0;  ///< wall time that it took
 };
 

@@ -13,6 +13,8 @@
 
 namespace hoctomap {
 
+struct ScanSeams;
+
 /// What all scans so far say of where one object ends and the next begins (docs/decisions/0028): for places
 /// of the surface a short step apart, how much speaks for their being parts of two things. A single view may
 /// join what touches, or part what is one; what all views say decides, in whatever order they come.
@@ -39,14 +41,9 @@ class SeamVotes {
   /// The other cell of pair number `direction`.
   [[nodiscard]] static Cell partner(const Cell& cell, std::size_t direction, int sign = 1);
 
-  /// Takes the votes of one scan. S cuts between an object and what it stands on, too: what is thin is an
-  /// object in one view and a part of its table in the next, and what stands on it must not grow into it.
-  /// @param segments  its clusters, world points
-  /// @param ground    what they stand on, world points
-  /// @param origin    of the sensor
+  /// Takes the votes of one scan.
   /// @returns the cells of clusters that it shows
-  Cells add(std::span<const PointCloud* const> segments, std::span<const PointCloud* const> ground,
-            const Eigen::Vector3d& origin);
+  Cells add(const ScanSeams& scan);
   /// Forgets what is known of these cells: their object has gone.
   void forget(const Cells& cells);
   /// What has moved as one is one: the cells are where an object stands now.
