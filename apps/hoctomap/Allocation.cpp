@@ -13,6 +13,14 @@ void* orThrow(void* memory) {
   return memory;
 }
 
+/// What a scan frees the next one takes again: giving it back to the system in between costs more than the
+/// work that it was for.
+const bool kept_between_scans = [] {
+  constexpr long kMilliseconds = 1000;
+  mi_option_set(mi_option_decommit_delay, kMilliseconds);
+  return true;
+}();
+
 }  // namespace
 
 void* operator new(std::size_t bytes) {

@@ -3,10 +3,24 @@
 
 #include <filesystem>
 
+#include "hoctomap/io/ChildProcess.h"
+
 namespace hoctomap {
 
-/// `MapDirectory::SceneMaker` that has the helper write MRPT's scene of the map in `directory`.
-/// @throws FileError
+/// A `MapDirectory::SceneMaker` that has the helper write MRPT's scene of a map. Once.
+class SceneMaker {
+ public:
+  /// Starts the helper, which loads its many libraries while the map is still being made.
+  /// @throws FileError
+  SceneMaker();
+  /// @throws FileError
+  void operator()(const std::filesystem::path& directory, const std::filesystem::path& file);
+
+ private:
+  ChildProcess helper_;
+};
+
+/// The same, without time to prepare.
 void makeScene(const std::filesystem::path& directory, const std::filesystem::path& file);
 
 }  // namespace hoctomap

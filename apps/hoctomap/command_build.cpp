@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <tbb/global_control.h>
 
+#include <functional>
 #include <iostream>
 #include <memory>
 
@@ -91,12 +92,13 @@ int build(const BuildOptions& options) {
              {input.text(), read.resume_at, before.last_stamp, before.mapped_scans, before.skipped_scans,
               options.snapshot_every},
              motions);
+  SceneMaker make_scene;
   {
     Progress progress(log, source.totalScans(), options.log.quiet);
     run.run(source, progress);
   }
   // A stopped run ends at once; the scene is no part of the map's state.
-  if (StopSignal::requested() == 0) directory.writeScene(makeScene);
+  if (StopSignal::requested() == 0) directory.writeScene(std::ref(make_scene));
 
   std::cout << describeMap(readManifest(directory.path())) << "\n"
             << run.summary().text() << "map        " << options.log.output << std::endl;

@@ -5,6 +5,7 @@ set(HOCTOMAP_IO_STREAM_SOURCES
   src/ScanStreamWriter.cpp
   src/ScanStreamReader.cpp
   src/StreamLogReadOptions.cpp
+  src/PipeWrite.cpp
   src/ChildProcess.cpp
   src/ChildHelper.cpp
   src/PipeSource.cpp

@@ -13,6 +13,7 @@
 #include <thread>
 #include <utility>
 
+#include "PipeWrite.h"
 #include "hoctomap/geometry/Errors.h"
 
 namespace hoctomap {
@@ -124,6 +125,11 @@ ChildProcess::~ChildProcess() {
   if (endsWithin(1000ms)) return;
   kill(SIGKILL);
   wait();
+}
+
+void ChildProcess::send(std::string_view bytes) {
+  if (const int error = writeToPipe(input_.get(), bytes.data(), bytes.size()))
+    fail("cannot write to a child process", error);
 }
 
 ExitStatus ChildProcess::wait() {

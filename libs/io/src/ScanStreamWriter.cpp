@@ -1,13 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include <pthread.h>
-#include <signal.h>
-#include <unistd.h>
-
 #include <algorithm>
-#include <cerrno>
 #include <cstring>
-#include <ctime>
 
+#include "PipeWrite.h"
 #include "ScanStreamBytes.h"
 
 namespace hoctomap {
@@ -15,44 +10,6 @@ namespace hoctomap {
 using namespace stream_bytes;
 
 namespace {
-
-/// Keeps a write to a closed pipe from raising SIGPIPE in the whole program: the signal is blocked in this
-/// thread, and one that the write made pending is consumed.
-class SigpipeBlocked {
- public:
-  SigpipeBlocked() {
-    sigemptyset(&pipe_);
-    sigaddset(&pipe_, SIGPIPE);
-    sigset_t pending;
-    sigpending(&pending);
-    was_pending_ = sigismember(&pending, SIGPIPE) == 1;
-    pthread_sigmask(SIG_BLOCK, &pipe_, &old_);
-  }
-  SigpipeBlocked(const SigpipeBlocked&) = delete;
-  SigpipeBlocked& operator=(const SigpipeBlocked&) = delete;
-  ~SigpipeBlocked() {
-    const timespec now{};
-    while (!was_pending_ && sigtimedwait(&pipe_, nullptr, &now) == -1 && errno == EINTR) {
-    }
-    pthread_sigmask(SIG_SETMASK, &old_, nullptr);
-  }
-
- private:
-  sigset_t pipe_{};
-  sigset_t old_{};
-  bool was_pending_ = false;
-};
-
-void writeFully(int fd, const std::uint8_t* from, std::size_t bytes) {
-  const SigpipeBlocked blocked;
-  while (bytes > 0) {
-    const ssize_t n = ::write(fd, from, bytes);
-    if (n < 0 && errno == EINTR) continue;
-    if (n < 0) throw FileError(std::string("scan stream: cannot write: ") + std::strerror(errno));
-    from += n;
-    bytes -= static_cast<std::size_t>(n);
-  }
-}
 
 /// Appends the payload of each kind of message and names its type.
 struct Encoder {
@@ -151,8 +108,13 @@ ScanStreamWriter::ScanStreamWriter(int fd) : fd_(fd) {
   Writer out(frame_);
   out.bytes(kMagic, sizeof kMagic);
   out.put(kVersion);
-  writeFully(fd_, frame_.data(), frame_.size());
+  send();
   frame_.clear();
+}
+
+void ScanStreamWriter::send() const {
+  if (const int error = writeToPipe(fd_, frame_.data(), frame_.size()))
+    throw FileError(std::string("scan stream: cannot write: ") + std::strerror(error));
 }
 
 void ScanStreamWriter::write(const StreamMessage& message, const StreamPosition& position) {
@@ -170,7 +132,7 @@ void ScanStreamWriter::write(const StreamMessage& message, const StreamPosition&
   header.put(position.offset);
   std::memcpy(frame_.data(), head.data(), kFrameHeaderBytes);
 
-  writeFully(fd_, frame_.data(), frame_.size());
+  send();
 }
 
 void sendErrorFromSignalHandler(int fd, int exit_code, const char* text,

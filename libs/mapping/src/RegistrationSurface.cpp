@@ -6,6 +6,8 @@
 #include <array>
 #include <cmath>
 
+#include "hoctomap/geometry/ForEachIndex.h"
+
 namespace hoctomap {
 
 namespace {
@@ -75,15 +77,14 @@ float spacingOf(const SurfacePoints& surface, float least) {
 /// Each point moved to the middle of the layer that noise makes of a surface.
 PointCloud smoothed(const SurfacePoints& surface, float spacing) {
   const float radius = kReach * spacingOf(surface, spacing);
-  PointCloud points;
-  points.reserve(surface.size());
-  for (const auto& p : surface.points()) {
-    const Patch patch = patchAround(surface, p, radius);
+  PointCloud points = surface.points();
+  forEachIndex(points.size(), [&](std::size_t i) {
+    const Patch patch = patchAround(surface, surface.points()[i], radius);
     Eigen::SelfAdjointEigenSolver<Eigen::Matrix3f> axes;
     axes.computeDirect(patch.covariance);
     const Eigen::Vector3f normal = axes.eigenvectors().col(0);
-    points.push_back(p + normal * normal.dot(patch.mean));
-  }
+    points[i] += normal * normal.dot(patch.mean);
+  });
   return points;
 }
 
@@ -104,17 +105,17 @@ RegistrationSurface::RegistrationSurface(std::span<const Eigen::Vector3f> world_
 
 void RegistrationSurface::describe() {
   const float radius = kReach * spacing_;
-  std::vector<float> variations;
-  normals_.reserve(size());
-  outward_.reserve(size());
-  for (const auto& p : points()) {
-    const Patch patch = patchAround(surface_, p, radius);
+  std::vector<float> variations(size());
+  normals_.resize(size());
+  outward_.resize(size());
+  forEachIndex(size(), [&](std::size_t i) {
+    const Patch patch = patchAround(surface_, points()[i], radius);
     Eigen::SelfAdjointEigenSolver<Eigen::Matrix3f> axes;
     axes.computeDirect(patch.covariance);
-    normals_.push_back(axes.eigenvectors().col(0));
-    variations.push_back(axes.eigenvalues()[0] / std::max(1e-12F, axes.eigenvalues().sum()));
-    outward_.push_back(outwardOf(patch, normals_.back(), radius));
-  }
+    normals_[i] = axes.eigenvectors().col(0);
+    variations[i] = axes.eigenvalues()[0] / std::max(1e-12F, axes.eigenvalues().sum());
+    outward_[i] = outwardOf(patch, normals_[i], radius);
+  });
   sharpen(variations);
 }
 

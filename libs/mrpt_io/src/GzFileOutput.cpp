@@ -21,14 +21,15 @@ constexpr int kMemoryLevel = 8;       // zlib's default
 
 }  // namespace
 
-GzFileOutput::GzFileOutput(const std::filesystem::path& target)
+GzFileOutput::GzFileOutput(const std::filesystem::path& target, int level)
     : target_(target),
       temporary_(target.parent_path() /
                  ("." + target.filename().string() + "." + std::to_string(::getpid()) + ".tmp")),
       file_(::open(temporary_.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_NOFOLLOW | O_CLOEXEC, 0666)),
       buffer_(kBufferBytes) {
+  waiting_.reserve(kBufferBytes);
   if (file_.get() < 0) fail(std::string("cannot be written: ") + std::strerror(errno));
-  if (deflateInit2(&zlib_, Z_DEFAULT_COMPRESSION, Z_DEFLATED, kGzipWindow, kMemoryLevel,
+  if (deflateInit2(&zlib_, level, Z_DEFLATED, kGzipWindow, kMemoryLevel,
                    Z_DEFAULT_STRATEGY) != Z_OK)
     throw std::bad_alloc();
 }
@@ -39,16 +40,22 @@ GzFileOutput::~GzFileOutput() {
 }
 
 std::size_t GzFileOutput::Write(const void* from, std::size_t bytes) {
-  if (bytes > std::numeric_limits<uInt>::max()) fail("an object is too large");
-  // zlib does not write to its input; its interface predates const.
-  zlib_.next_in = const_cast<Bytef*>(static_cast<const Bytef*>(from));
-  zlib_.avail_in = static_cast<uInt>(bytes);
-  deflateAll(Z_NO_FLUSH);
+  if (waiting_.size() + bytes > kBufferBytes) deflateWaiting();
+  const auto* first = static_cast<const unsigned char*>(from);
+  waiting_.insert(waiting_.end(), first, first + bytes);
   return bytes;
 }
 
 std::size_t GzFileOutput::Read(void*, std::size_t) {
   throw std::logic_error("GzFileOutput only writes");
+}
+
+void GzFileOutput::deflateWaiting() {
+  if (waiting_.size() > std::numeric_limits<uInt>::max()) fail("an object is too large");
+  zlib_.next_in = waiting_.data();
+  zlib_.avail_in = static_cast<uInt>(waiting_.size());
+  deflateAll(Z_NO_FLUSH);
+  waiting_.clear();
 }
 
 void GzFileOutput::deflateAll(int flush) {
@@ -69,7 +76,7 @@ void GzFileOutput::deflateAll(int flush) {
 }
 
 void GzFileOutput::commit() {
-  zlib_.avail_in = 0;
+  deflateWaiting();
   deflateAll(Z_FINISH);
   if (::fsync(file_.get()) != 0) fail(std::string("cannot be synced: ") + std::strerror(errno));
   if (::close(file_.release()) != 0) fail(std::string("cannot be closed: ") + std::strerror(errno));

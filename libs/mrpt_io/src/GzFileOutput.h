@@ -16,8 +16,9 @@ namespace hoctomap {
 /// inside: same content, same bytes.
 class GzFileOutput {
  public:
+  /// @param level  of zlib
   /// @throws FileError
-  explicit GzFileOutput(const std::filesystem::path& target);
+  explicit GzFileOutput(const std::filesystem::path& target, int level = Z_DEFAULT_COMPRESSION);
   ~GzFileOutput();
   GzFileOutput(const GzFileOutput&) = delete;
   GzFileOutput& operator=(const GzFileOutput&) = delete;
@@ -30,6 +31,7 @@ class GzFileOutput {
   void commit();
 
  private:
+  void deflateWaiting();
   void deflateAll(int flush);
   [[noreturn]] void fail(const std::string& what) const;
 
@@ -37,7 +39,8 @@ class GzFileOutput {
   std::filesystem::path temporary_;
   UniqueFd file_;
   z_stream zlib_{};
-  std::vector<unsigned char> buffer_;
+  std::vector<unsigned char> waiting_;  ///< to be compressed: MRPT writes number by number
+  std::vector<unsigned char> buffer_;   ///< compressed
   bool committed_ = false;
 };
 

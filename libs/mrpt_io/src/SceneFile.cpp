@@ -14,7 +14,8 @@ void writeSceneFile(const MapHierarchy& hierarchy, const std::filesystem::path& 
   scene.getViewport()->setCustomBackgroundColor({1.0F, 1.0F, 1.0F});
   scene.getViewport()->lightParameters().ambient = {0.6F, 0.6F, 0.6F, 1.0F};
   scene.getViewport()->lightParameters().diffuse = {0.5F, 0.5F, 0.5F, 1.0F};
-  GzFileOutput out(file);  // checked, unlike COpenGLScene::saveToFile
+  // Checked, unlike COpenGLScene::saveToFile. A run waits for its scene.
+  GzFileOutput out(file, Z_BEST_SPEED);
   auto archive = mrpt::serialization::archiveFrom(out);
   archive << scene;
   out.commit();

@@ -6,6 +6,7 @@
 #include <filesystem>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 namespace hoctomap {
@@ -72,6 +73,8 @@ class ChildProcess {
   [[nodiscard]] int inputFd() const { return input_.get(); }    ///< write here; -1 without a pipe
   [[nodiscard]] int outputFd() const { return output_.get(); }  ///< read here; -1 without a pipe
   void closeInput() { input_.reset(); }
+  /// Writes all of it to the child's standard input, a pipe. @throws FileError if the child has ended
+  void send(std::string_view bytes);
 
   /// Waits for its end.
   ExitStatus wait();

@@ -50,10 +50,11 @@ struct StreamHeader {
     std::uint32_t width = 0;  ///< of the range image; 0 if unorganised
     std::uint32_t height = 0;
   };
-  std::uint64_t total_scans = 0;        ///< all 3D scans of the logs
-  std::uint64_t chosen_scans = 0;       ///< at most this many will come, as scans or as skipped scans
-  std::string pose_source;              ///< for the log of the run
-  std::vector<std::string> log_sha256;  ///< hex, of each log with the files beside it that it names; may be empty
+  std::uint64_t total_scans = 0;   ///< all 3D scans of the logs
+  std::uint64_t chosen_scans = 0;  ///< at most this many will come, as scans or as skipped scans
+  std::string pose_source;         ///< for the log of the run
+  std::vector<std::string>
+      log_sha256;  ///< hex, of each log with the files beside it that it names; may be empty
   std::vector<Sensor> sensors;
 };
 
@@ -125,6 +126,8 @@ class ScanStreamWriter {
   void write(const StreamMessage& message, const StreamPosition& position = {});
 
  private:
+  void send() const;
+
   int fd_;
   std::vector<std::uint8_t> frame_;  ///< reused from message to message
 };
