@@ -11,6 +11,8 @@ set(CMAKE_CXX_STANDARD_REQUIRED ON)
 set(CMAKE_CXX_EXTENSIONS OFF)
 set(CMAKE_POSITION_INDEPENDENT_CODE ON)
 set(CMAKE_EXPORT_COMPILE_COMMANDS ON)
+# Target `all_verify_interface_header_sets` compiles every public header by itself, without what is precompiled.
+set(CMAKE_VERIFY_INTERFACE_HEADER_SETS ON)
 
 find_program(HOCTOMAP_CCACHE ccache)
 if(HOCTOMAP_CCACHE AND NOT CMAKE_CXX_COMPILER_LAUNCHER)

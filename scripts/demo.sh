@@ -8,7 +8,7 @@ out=${1:-out/demo}
 
 scripts/install_dependencies.sh
 cmake --preset release >/dev/null
-cmake --build --preset release --parallel "$(nproc)" --target hoctomap hoctomap-mrpt hoctomap-cloud
+cmake --build --preset release --parallel "$(nproc)" --target hoctomap hoctomap-simulator hoctomap-mrpt hoctomap-cloud
 hoctomap=build/release/apps/hoctomap/hoctomap
 
 rm -rf "$out"

@@ -5,9 +5,9 @@
 #include <memory>
 
 #include "Command.h"
-#include "hoctomap/config/SceneConfig.h"
 #include "hoctomap/geometry/Errors.h"
 #include "hoctomap/io/CsvText.h"
+#include "hoctomap/scenes/SceneConfig.h"
 #include "vi_c/Results.h"
 
 namespace hoctomap {

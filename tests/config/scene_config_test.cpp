@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "hoctomap/config/SceneConfig.h"
+#include "hoctomap/scenes/SceneConfig.h"
 
 #include <gtest/gtest.h>
 

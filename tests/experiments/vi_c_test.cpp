@@ -3,7 +3,7 @@
 
 #include <cmath>
 
-#include "hoctomap/config/SceneConfig.h"
+#include "hoctomap/scenes/SceneConfig.h"
 #include "hoctomap/simulation/SceneRaycaster.h"
 #include "support/SharedData.h"
 #include "vi_c/JitteredScene.h"

@@ -4,10 +4,10 @@
 #include <iostream>
 #include <utility>
 
-#include "hoctomap/config/SceneConfig.h"
 #include "hoctomap/geometry/Errors.h"
 #include "hoctomap/io/PipeLogWriter.h"
 #include "hoctomap/io/PipeSource.h"
+#include "hoctomap/scenes/SceneConfig.h"
 #include "hoctomap/simulation/Simulation.h"
 
 namespace hoctomap {

@@ -1,0 +1,59 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Program.h"
+
+#include <exception>
+#include <iostream>
+#include <new>
+
+#include "hoctomap/geometry/Errors.h"
+#include "hoctomap/io/EscapedText.h"
+#include "hoctomap/io/ScanStream.h"
+
+namespace hoctomap {
+
+namespace {
+
+int fail(const std::string& what, int exit_code) {
+  // One clear line, whatever stands in the names and values of the input.
+  std::cerr << "hoctomap: " << what << std::endl;
+  return exit_code;
+}
+
+/// The problems of a configuration come one a line; anything else is one line.
+std::string escapedLines(const std::string& text) {
+  std::string result;
+  std::size_t begin = 0;
+  while (begin <= text.size()) {
+    const std::size_t end = std::min(text.find('\n', begin), text.size());
+    if (begin > 0) result += '\n';
+    result += escapedText(std::string_view(text).substr(begin, end - begin));
+    begin = end + 1;
+  }
+  return result;
+}
+
+}  // namespace
+
+int runProgram(CLI::App& app, const Action& action, int argc, char** argv) {
+  app.set_version_flag("--version", "hoctomap " HOCTOMAP_VERSION);
+  app.require_subcommand(1);
+  try {
+    app.parse(argc, argv);
+  } catch (const CLI::ParseError& e) {
+    if (e.get_exit_code() == 0) return app.exit(e);  // --help, --version
+    return fail(escapedText(e.what()) + " (see hoctomap --help)", 2);
+  }
+  try {
+    return action();
+  } catch (const ConfigError& e) {
+    return fail(escapedLines(e.what()), 2);
+  } catch (const Error& e) {
+    return fail(escapedText(e.what()), exitCodeOf(e));
+  } catch (const std::bad_alloc&) {
+    return fail("out of memory", 6);
+  } catch (const std::exception& e) {
+    return fail("internal error: " + escapedText(e.what()), 1);
+  }
+}
+
+}  // namespace hoctomap
