@@ -4,6 +4,7 @@ option(BUILD_TESTING "Build the tests" ON)
 option(HOCTOMAP_WERROR "Treat warnings as errors" OFF)
 option(HOCTOMAP_SANITIZE "Build with AddressSanitizer and UndefinedBehaviorSanitizer" OFF)
 option(HOCTOMAP_SANITIZE_THREADS "Build with ThreadSanitizer" OFF)
+option(HOCTOMAP_PYTHON "Build the Python module" OFF)
 option(HOCTOMAP_FUZZ "Build the targets of tests/fuzz for libFuzzer, too; needs clang" OFF)
 
 set(CMAKE_CXX_STANDARD 20)

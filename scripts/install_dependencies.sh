@@ -17,10 +17,12 @@ packages=(
   libembree-dev libassimp-dev
   # point clouds of other formats
   libopen3d-dev
+  # the Python package, and its tests and example
+  pybind11-dev python3-dev python3-numpy python3-pytest python3-matplotlib
   # pictures without a display
   libegl1 libgl1-mesa-dri
   # tests; octomap-tools, mrpt-apps, pcl-tools and python3-yaml open our results
-  libgtest-dev octomap-tools mrpt-apps pcl-tools xvfb python3-yaml python3-numpy python3-pil
+  libgtest-dev octomap-tools mrpt-apps pcl-tools xvfb python3-yaml python3-pil
   # benchmarks, and plots of the experiments
   libbenchmark-dev gnuplot-nox
 )
