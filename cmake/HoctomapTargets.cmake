@@ -17,6 +17,7 @@ function(hoctomap_library name)
     PUBLIC ${ARG_PUBLIC} PRIVATE ${ARG_PRIVATE} ${ARG_BUILD_ONLY} $<BUILD_INTERFACE:hoctomap_flags>)
   set_target_properties(hoctomap_${name} PROPERTIES EXPORT_NAME ${name})
   hoctomap_precompile(hoctomap_${name} library)
+  set_property(GLOBAL APPEND PROPERTY HOCTOMAP_INSTALLED hoctomap_${name})
   install(TARGETS hoctomap_${name} EXPORT hoctomapTargets
     ARCHIVE DESTINATION "${CMAKE_INSTALL_LIBDIR}" COMPONENT development
     FILE_SET HEADERS DESTINATION "${CMAKE_INSTALL_INCLUDEDIR}" COMPONENT development)

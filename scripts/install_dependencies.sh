@@ -21,6 +21,8 @@ packages=(
   pybind11-dev python3-dev python3-numpy python3-pytest python3-matplotlib
   # pictures without a display
   libegl1 libgl1-mesa-dri
+  # manual pages are tried with man
+  man-db
   # tests; octomap-tools, mrpt-apps, pcl-tools and python3-yaml open our results
   libgtest-dev octomap-tools mrpt-apps pcl-tools xvfb python3-yaml python3-pil
   # benchmarks, and plots of the experiments

@@ -25,6 +25,7 @@ void addExportCommand(CLI::App& app, Action& action);
 void addImportCommand(CLI::App& app, Action& action);
 void addSimulateCommand(CLI::App& app, Action& action);
 void addExploreCommand(CLI::App& app, Action& action);
+void addDocumentationCommand(CLI::App& app, Action& action);
 
 /// Adds a subcommand with a help text that ends in examples, one a line.
 CLI::App* addCommand(CLI::App& app, const std::string& name, const std::string& what,

@@ -23,5 +23,6 @@ int main(int argc, char** argv) {
   hoctomap::addImportCommand(app, action);
   hoctomap::addSimulateCommand(app, action);
   hoctomap::addExploreCommand(app, action);
+  hoctomap::addDocumentationCommand(app, action);
   return hoctomap::runProgram(app, action, argc, argv);
 }

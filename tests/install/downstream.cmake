@@ -8,6 +8,11 @@ function(run)
   set(said "${said}" PARENT_SCOPE)
 endfunction()
 
+file(READ "${DOWNSTREAM}/../../../package.xml" package_xml)
+if(NOT package_xml MATCHES "<version>${VERSION}</version>")
+  message(FATAL_ERROR "package.xml has another version than ${VERSION}")
+endif()
+
 file(REMOVE_RECURSE "${WORK}")
 run("${CMAKE_COMMAND}" --install "${BUILD}" --prefix "${WORK}/first" --component development)
 file(RENAME "${WORK}/first" "${WORK}/moved")
