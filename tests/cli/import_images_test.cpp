@@ -176,6 +176,7 @@ TEST(ImportTum, BadFoldersGiveOneLineAndNoLog) {
       {replaced("camera.txt", "15 15 80 6\n"), "outside of the image"},
       {replaced("groundtruth.txt", "100 0 0 0 0 0 nan 1\n"), "groundtruth.txt:1: 'nan' is not finite"},
       {replaced("groundtruth.txt", "100 0 0 0 0 0 0 2\n"), "groundtruth.txt:1: the quaternion's length"},
+      {replaced("groundtruth.txt", "100 2e6 0 0 0 0 0 1\n"), "groundtruth.txt:1: bad pose"},
       {replaced("groundtruth.txt", "100 0 0 0 0 0\n"), "groundtruth.txt:1: 6 columns"},
   };
   for (const Case& c : cases) {
@@ -287,6 +288,7 @@ TEST(ImportFrames, BadFoldersGiveOneLineAndNoLog) {
       {"frame-000001.pose.txt", "1 0 0 0\n0 1 0 0\n0 0 nan 0\n0 0 0 1\n", "frame-000001.pose.txt:3: 'nan'"},
       {"frame-000001.pose.txt", "1 0 0\n0 1 0\n0 0 1\n", "frame-000001.pose.txt:1: 3 columns instead of 4"},
       {"frame-000001.pose.txt", "1 0 0 0\n0 1 0 0\n", "2 rows instead of 4"},
+      {"frame-000001.pose.txt", "1 0 0 2e6\n0 1 0 0\n0 0 1 0\n0 0 0 1\n", "bad pose"},
       {"frame-000001.pose.txt", "1 0 0 0\n0 2 0 0\n0 0 1 0\n0 0 0 1\n", "not orthonormal"},
       {"frame-000001.pose.txt", "1 0 0 0\n0 1 0 0\n0 0 -1 0\n0 0 0 1\n", "a reflection"},
       {"camera-intrinsics.txt", "15 0 8\n0 15 6\n", "camera-intrinsics.txt: 2 rows instead of 3"},
