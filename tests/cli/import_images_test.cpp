@@ -5,6 +5,7 @@
 #include "DatasetFolders.h"
 #include "TableLogs.h"
 #include "hoctomap/io/LabelPng.h"
+#include "hoctomap/io/MapReader.h"
 #include "hoctomap/io/PoseTrack.h"
 #include "support/SharedData.h"
 
@@ -116,6 +117,48 @@ TEST(ImportTum, ImagesMayStandBesideTheLog) {
           .exit_code,
       2)
       << "the images of the old log are not touched";
+}
+
+TEST(ImportTum, OtherImagesBesideALogAreAnotherLogToContinue) {
+  const TemporaryFolder folder;
+  test::writeTumFolder(folder / "tum", 3);
+  ASSERT_EQ(importTum(folder, {"--images", "external"}).exit_code, 0);
+  const std::vector<std::string> build{"build", "-q", "-i", folder / "a.rawlog", "-o", folder / "map"};
+  const auto continued = [&] {
+    auto arguments = build;
+    arguments.emplace_back("--continue");
+    return test::hoctomap(arguments);
+  };
+  auto first = build;
+  first.insert(first.end(), {"--max-scans", "1"});
+  ASSERT_EQ(test::hoctomap(first).exit_code, 0);
+  const auto map = test::readTree(folder / "map");
+
+  const std::filesystem::path a(folder / "a_Images/000000_range.bin");
+  const std::filesystem::path b(folder / "a_Images/000001_range.bin");
+  const std::string image = test::readFile(a);
+  test::writeFile(a, test::readFile(b));
+  const auto refused = continued();
+  EXPECT_EQ(refused.exit_code, 3);
+  EXPECT_NE(refused.err.find("cannot be continued"), std::string::npos) << refused.err;
+  EXPECT_EQ(test::readTree(folder / "map"), map);
+
+  test::writeFile(a, image);
+  const auto outcome = continued();
+  EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
+  EXPECT_EQ(readManifest(folder / "map").scans, 3U);
+}
+
+TEST(ImportTum, DamagedImagesBesideALogAreSkippedScans) {
+  const TemporaryFolder folder;
+  test::writeTumFolder(folder / "tum", 3);
+  ASSERT_EQ(importTum(folder, {"--images", "external"}).exit_code, 0);
+  test::writeFile(folder / "a_Images/000001_range.bin", "no image of any kind");
+  const auto outcome = test::hoctomap({"build", "-i", folder / "a.rawlog", "-o", folder / "map"});
+  EXPECT_EQ(outcome.exit_code, 3) << "a third is more than 5 %";
+  EXPECT_NE(outcome.out.find("2 used, 1 skipped"), std::string::npos) << outcome.out;
+  EXPECT_NE(outcome.err.find("damaged external file"), std::string::npos) << outcome.err;
+  EXPECT_EQ(readManifest(folder / "map").scans, 3U) << "the map is written all the same";
 }
 
 TEST(ImportTum, StockMrptReadsTheLog) {
