@@ -79,7 +79,7 @@ portions() {
     local size=$((left < portion ? left : portion))
     if ! grep -q "^seed $seed: $size " "$record"; then
       local output
-      output=$("$4" "$seed" "$size" "${@:5}")
+      output=$("$4" "$seed" "$size" "${@:5}") || { echo "$1: seed $seed ended with exit code $?" >&2; return 1; }
       echo "seed $seed: $size executions, $(date +%F), $(echo $output)" >> "$record"
     fi
     left=$((left - size))

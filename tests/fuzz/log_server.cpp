@@ -144,7 +144,7 @@ std::vector<Outcome> readLogs(std::span<const std::string> logs) {
   for (Task& task : tasks) task.to.reset();
   std::vector<Outcome> outcomes;
   for (Task& task : tasks) {
-    ::alarm(60);  // a hang of either ends this program, which is a finding as well
+    ::alarm(600);  // a hang of either ends this program, which is a finding as well; a busy machine is none
     const int told = readStream(task.from.get());
     task.from.reset();
     outcomes.push_back(outcomeOf(told, codes.get(), child));
