@@ -5,8 +5,9 @@
 #   scripts/soak.sh cycles N     N scans, each taken in by a process of its own; the bytes of one process over all
 #   scripts/soak.sh logs N       N mutated logs through `hoctomap build`
 #   scripts/soak.sh reader N     N mutated logs through the log reader's fork server
-#   scripts/soak.sh fuzz N       N executions of every fuzzer (preset `fuzz`, FUZZ, default build/fuzz)
-# SEED (default 1) is that of the mutations of `logs` and `reader`.
+#   scripts/soak.sh fuzz N       N executions of every fuzzer (preset `fuzz`, FUZZ, default build/fuzz), or of TARGETS
+# `reader` and `fuzz` go on where they were stopped: what is done stands in build/soak.
+# SEED (default 1) is that of the mutations, of the first portion where there are several.
 set -euo pipefail
 cd "$(dirname "$0")/.."
 build=${BUILD:-build/dev}
@@ -68,20 +69,46 @@ logs() {
   python3 scripts/mutated_logs.py "$hoctomap" "$work" "$count" "${SEED:-1}"
 }
 
-reader() {
-  "$build/tests/fuzz/fuzz_logs" --rounds "$count" --seed "${SEED:-1}" --keep "$work" || { cp "$work"/finding-* .; return 1; }
+# Portions of a long run, each recorded in build/soak/NAME.txt when it is done: what was stopped goes on where it was.
+#   portions NAME COUNT PORTION COMMAND: runs COMMAND SEED COUNT, whose output is the record
+portions() {
+  local record=build/soak/$1.txt left=$2 portion=$3 seed=${SEED:-1}
+  mkdir -p build/soak
+  touch "$record"
+  while [ "$left" -gt 0 ]; do
+    local size=$((left < portion ? left : portion))
+    if ! grep -q "^seed $seed: $size " "$record"; then
+      local output
+      output=$("$4" "$seed" "$size" "${@:5}") || { echo "$1: seed $seed ended with exit code $?" >&2; return 1; }
+      echo "seed $seed: $size executions, $(date +%F), $(echo $output)" >> "$record"
+    fi
+    left=$((left - size))
+    seed=$((seed + 1))
+  done
+  tail -n 1 "$record"
+}
+
+reader_portion() {
+  "$build/tests/fuzz/fuzz_logs" --rounds "$2" --seed "$1" --batch 50 --keep build/soak
+}
+
+reader() { portions reader "$count" 10000 reader_portion; }
+
+fuzz_portion() {
+  local target=$3 corpus=build/soak/corpus/$3
+  mkdir -p "$corpus"
+  "$build/tests/fuzz/fuzz_${target}_replay" --write-seeds "$corpus" > /dev/null
+  cp tests/fuzz/corpus/$target/* "$corpus/"
+  # Its clock goes on while a run in the background waits: far more than an input takes.
+  "$fuzz/tests/fuzz/fuzz_$target" -seed="$1" -runs="$2" -max_len=20000 -rss_limit_mb=2000 -timeout=300 \
+    -artifact_prefix=build/soak/ "$corpus" > "$work/$target.txt" 2>&1 || { tail -30 "$work/$target.txt" >&2; return 1; }
+  grep '^Done' "$work/$target.txt"
 }
 
 fuzz() {
   local fuzz=${FUZZ:-build/fuzz}
-  for target in ini poses manifest ot bt stream; do
-    local corpus=$work/corpus/$target
-    mkdir -p "$corpus"
-    "$build/tests/fuzz/fuzz_${target}_replay" --write-seeds "$corpus" > /dev/null
-    cp tests/fuzz/corpus/$target/* "$corpus/"
-    "$fuzz/tests/fuzz/fuzz_$target" -runs="$count" -max_len=20000 -rss_limit_mb=2000 -timeout=20 "$corpus" \
-      > "$work/$target.txt" 2>&1 || { tail -30 "$work/$target.txt"; return 1; }
-    echo "$target: $(grep '^Done' "$work/$target.txt"), $(ls "$corpus" | wc -l) inputs that differ"
+  for target in ${TARGETS:-ini poses manifest ot bt stream}; do
+    portions "fuzz_$target" "$count" ${PORTION:-100000} fuzz_portion "$target"
   done
 }
 

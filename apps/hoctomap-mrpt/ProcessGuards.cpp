@@ -111,6 +111,7 @@ void reportCrashes(int fd, const std::vector<std::filesystem::path>& logs, const
   CrashReport& report = crashReport();
   report.fd = fd;
   report.progress = &progress;
+  report.names.clear();
   for (const auto& log : logs) report.names.push_back(escapedText(log.string(), 500));
   report.stack.resize(std::size_t{1} << 16);
   const stack_t stack{.ss_sp = report.stack.data(), .ss_flags = 0, .ss_size = report.stack.size()};

@@ -5,7 +5,8 @@ namespace hoctomap {
 
 /// From its construction on, SIGINT and SIGTERM ask the program to stop after the current scan. A second
 /// signal ends it at once, which is safe: what is committed stays committed. Work that takes longer than 1.5
-/// s after the first one is given up in the same way, with the exit code of a stop (docs/decisions/0046).
+/// s after the first one, less for a large process, is given up in the same way, with the exit code of a stop
+/// (docs/decisions/0046).
 class StopSignal {
  public:
   enum class LongWork {

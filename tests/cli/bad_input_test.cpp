@@ -62,6 +62,8 @@ TEST(BadPoses, AreExit3WithTheLine) {
       {"nan", "1300000000 nan 0 0 0 0 0\n"},
       {"comma", "1300000000 0,5 0 0 0 0 0\n"},
       {"quaternion", "1300000000 0 0 0 0 0 0 0\n"},
+      {"far", "1300000000 2e6 0 0 0 0 0\n"},
+      {"far_quaternion", "1300000000 2e6 0 0 0 0 0 1\n"},
       {"unsorted", "1300000001 0 0 0 0 0 0\n1300000000 0 0 0 0 0 0\n"},
       {"twice", "1300000000 0 0 0 0 0 0\n1300000000 1 0 0 0 0 0\n"}};
   for (const auto& [name, text] : files) {

@@ -137,6 +137,7 @@ TEST(ImportPcd, BadFoldersGiveOneLineAndNoLog) {
       {"100.1.bin", kittiBytes().substr(0, 47), "47 bytes are no whole number of points"},
       {"poses.txt", test::tumRow(500.0, Pose()), "has no pose for any of the clouds"},
       {"poses.txt", "1 0 0 0 0 1 0 0 0 0 2 0\n", "poses.txt:1: the pose is not orthonormal"},
+      {"poses.txt", "1 0 0 2e6 0 1 0 0 0 0 1 0\n", "poses.txt:1: bad pose"},
       {"poses.txt", "1 0 0 0 0 1 0 0 0 0 1 0\n1 0 0\n", "poses.txt:2: 3 columns"},
       {"calib.txt", "Tr: 1 2 3\n", "calib.txt:1: 3 numbers instead of 12"},
       {"times.txt", "1\n2 3\n", "times.txt:2: 2 columns instead of 1"},

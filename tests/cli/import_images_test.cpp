@@ -5,6 +5,7 @@
 #include "DatasetFolders.h"
 #include "TableLogs.h"
 #include "hoctomap/io/LabelPng.h"
+#include "hoctomap/io/MapReader.h"
 #include "hoctomap/io/PoseTrack.h"
 #include "support/SharedData.h"
 
@@ -118,6 +119,48 @@ TEST(ImportTum, ImagesMayStandBesideTheLog) {
       << "the images of the old log are not touched";
 }
 
+TEST(ImportTum, OtherImagesBesideALogAreAnotherLogToContinue) {
+  const TemporaryFolder folder;
+  test::writeTumFolder(folder / "tum", 3);
+  ASSERT_EQ(importTum(folder, {"--images", "external"}).exit_code, 0);
+  const std::vector<std::string> build{"build", "-q", "-i", folder / "a.rawlog", "-o", folder / "map"};
+  const auto continued = [&] {
+    auto arguments = build;
+    arguments.emplace_back("--continue");
+    return test::hoctomap(arguments);
+  };
+  auto first = build;
+  first.insert(first.end(), {"--max-scans", "1"});
+  ASSERT_EQ(test::hoctomap(first).exit_code, 0);
+  const auto map = test::readTree(folder / "map");
+
+  const std::filesystem::path a(folder / "a_Images/000000_range.bin");
+  const std::filesystem::path b(folder / "a_Images/000001_range.bin");
+  const std::string image = test::readFile(a);
+  test::writeFile(a, test::readFile(b));
+  const auto refused = continued();
+  EXPECT_EQ(refused.exit_code, 3);
+  EXPECT_NE(refused.err.find("cannot be continued"), std::string::npos) << refused.err;
+  EXPECT_EQ(test::readTree(folder / "map"), map);
+
+  test::writeFile(a, image);
+  const auto outcome = continued();
+  EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
+  EXPECT_EQ(readManifest(folder / "map").scans, 3U);
+}
+
+TEST(ImportTum, DamagedImagesBesideALogAreSkippedScans) {
+  const TemporaryFolder folder;
+  test::writeTumFolder(folder / "tum", 3);
+  ASSERT_EQ(importTum(folder, {"--images", "external"}).exit_code, 0);
+  test::writeFile(folder / "a_Images/000001_range.bin", "no image of any kind");
+  const auto outcome = test::hoctomap({"build", "-i", folder / "a.rawlog", "-o", folder / "map"});
+  EXPECT_EQ(outcome.exit_code, 3) << "a third is more than 5 %";
+  EXPECT_NE(outcome.out.find("2 used, 1 skipped"), std::string::npos) << outcome.out;
+  EXPECT_NE(outcome.err.find("damaged external file"), std::string::npos) << outcome.err;
+  EXPECT_EQ(readManifest(folder / "map").scans, 3U) << "the map is written all the same";
+}
+
 TEST(ImportTum, StockMrptReadsTheLog) {
   const TemporaryFolder folder;
   test::writeTumFolder(folder / "tum", 3);
@@ -176,6 +219,7 @@ TEST(ImportTum, BadFoldersGiveOneLineAndNoLog) {
       {replaced("camera.txt", "15 15 80 6\n"), "outside of the image"},
       {replaced("groundtruth.txt", "100 0 0 0 0 0 nan 1\n"), "groundtruth.txt:1: 'nan' is not finite"},
       {replaced("groundtruth.txt", "100 0 0 0 0 0 0 2\n"), "groundtruth.txt:1: the quaternion's length"},
+      {replaced("groundtruth.txt", "100 2e6 0 0 0 0 0 1\n"), "groundtruth.txt:1: bad pose"},
       {replaced("groundtruth.txt", "100 0 0 0 0 0\n"), "groundtruth.txt:1: 6 columns"},
   };
   for (const Case& c : cases) {
@@ -287,6 +331,7 @@ TEST(ImportFrames, BadFoldersGiveOneLineAndNoLog) {
       {"frame-000001.pose.txt", "1 0 0 0\n0 1 0 0\n0 0 nan 0\n0 0 0 1\n", "frame-000001.pose.txt:3: 'nan'"},
       {"frame-000001.pose.txt", "1 0 0\n0 1 0\n0 0 1\n", "frame-000001.pose.txt:1: 3 columns instead of 4"},
       {"frame-000001.pose.txt", "1 0 0 0\n0 1 0 0\n", "2 rows instead of 4"},
+      {"frame-000001.pose.txt", "1 0 0 2e6\n0 1 0 0\n0 0 1 0\n0 0 0 1\n", "bad pose"},
       {"frame-000001.pose.txt", "1 0 0 0\n0 2 0 0\n0 0 1 0\n0 0 0 1\n", "not orthonormal"},
       {"frame-000001.pose.txt", "1 0 0 0\n0 1 0 0\n0 0 -1 0\n0 0 0 1\n", "a reflection"},
       {"camera-intrinsics.txt", "15 0 8\n0 15 6\n", "camera-intrinsics.txt: 2 rows instead of 3"},

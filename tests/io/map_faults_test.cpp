@@ -96,6 +96,38 @@ TEST_P(MapFaults, OfAMapThatReplacesAnother) {
   EXPECT_GT(n, 100);
 }
 
+/// What has no hard links gets copies: then a link that fails is none that the map fails by.
+TEST(MapFaultsOfLinks, AFileSystemWithoutThemIsGoodEnough) {
+  const test::TemporaryFolder folder;
+  const auto map = [&](const std::string& name) { return folder.path() / name; };
+  for (const std::uint64_t seed : {6U, 7U}) {
+    MapDirectory writer(map(std::to_string(seed)), mapOptions(MapOpenMode::create));
+    BuildRun(seed).all(writer);
+  }
+  const auto expected = contents(map("7"));
+  int copied = 0;
+  for (const int error : {EPERM, EIO}) {  // no such thing here; a disk that is broken
+    for (int n = 0;; ++n) {
+      std::filesystem::remove_all(map("over"));
+      std::filesystem::copy(map("6"), map("over"), std::filesystem::copy_options::recursive);
+      std::optional<FailingCall> fault(std::in_place, n, error);
+      try {
+        MapDirectory writer(map("over"), mapOptions(MapOpenMode::overwrite));
+        BuildRun(7).all(writer);
+        copied += fault->reached() ? (error == EPERM ? 1 : -1) : 0;
+      } catch (const FileError&) {
+        continue;
+      }
+      const bool reached = fault->reached();
+      fault.reset();
+      std::filesystem::remove(map("over") / ".lock");  // left if it is its removal that failed
+      EXPECT_EQ(contents(map("over")), expected) << "call " << n;
+      if (!reached) break;
+    }
+  }
+  EXPECT_GT(copied, 0);
+}
+
 /// A longer log takes events back that the end of the shorter one has added.
 TEST_P(MapFaults, OfAMapThatIsContinued) {
   for (const std::uint64_t scans : {2U, 3U}) {

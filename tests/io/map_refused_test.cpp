@@ -128,6 +128,31 @@ TEST_F(MapRefused, Values) {
   expectRefused(yamlWith([](Manifest& m) { m.nodes.at(1).world_T_node.x(77.0); }), "world_pose");
 }
 
+TEST_F(MapRefused, WhatWaits) {
+  const auto waiting = [](Manifest& m) {
+    NodeRecord node = m.nodes.at(1);
+    node.id = NodeId{m.next_id.value};
+    m.next_id = NodeId{m.next_id.value + 1};
+    node.children.clear();
+    node.confirmation.waits = true;
+    m.waiting.push_back(node);
+  };
+  Manifest sound = manifest_;
+  waiting(sound);
+  EXPECT_EQ(parseManifest(toYaml(sound), "m.yaml").waiting.size(), 1U);
+  const auto with = [&](const std::function<void(NodeRecord&)>& change) {
+    Manifest changed = sound;
+    change(changed.waiting[0]);
+    return toYaml(changed);
+  };
+  expectRefused(with([](NodeRecord& node) { node.parent = NodeId{3000}; }), "under a node of the tree");
+  expectRefused(with([](NodeRecord& node) { node.parent.reset(); }), "under a node of the tree");
+  expectRefused(with([](NodeRecord& node) { node.children = {NodeId{1}}; }), "alone");
+  std::string yaml = toYaml(sound);
+  const std::string flag = "enough: false";
+  expectRefused(yaml.replace(yaml.find(flag), flag.size(), "enough: maybe"), "neither true nor false");
+}
+
 TEST_F(MapRefused, Texts) {
   expectRefused(replaced("format_version: 1", "format_version: 2"), "newer");
   expectRefused(replaced("format_version: 1", "format_version: one"), "format_version");

@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include <cstdlib>
+#include <locale>
 #include <sstream>
 
 #include "hoctomap/io/MapCheck.h"
@@ -82,6 +83,26 @@ TEST_F(MapRoundTrip, WritingAMapThatWasReadGivesTheSameBytes) {
     EXPECT_EQ(contents(map()), before);
   }
   EXPECT_EQ(toYaml(readManifest(map())), test::readText(map() / "hierarchy.yaml"));
+}
+
+TEST_F(MapRoundTrip, TheLocaleOfTheProcessMeansNothing) {
+  struct German : std::numpunct<char> {
+    char do_decimal_point() const override { return ','; }
+    char do_thousands_sep() const override { return '.'; }
+    std::string do_grouping() const override { return "\3"; }
+  };
+  hierarchy_.node(kRootId).version = 1'234'567;
+  std::vector<RemovedNode> removed;
+  removed.push_back({hierarchy_.remove(hierarchy_.preorder().back()), Pose(0.5, 0, 0, 0, 0, 0), 3});
+  write(hierarchy_, removed, "a");
+  const std::locale before = std::locale::global(std::locale(std::locale::classic(), new German));
+  write(hierarchy_, removed, "b");
+  const auto checked = checkMap(map("b"));
+  const StoredMap back = readMap(map("b"));
+  std::locale::global(before);
+  EXPECT_EQ(contents(map("a")), contents(map("b")));
+  EXPECT_TRUE(checked.damage.empty());
+  EXPECT_EQ(back.hierarchy.node(kRootId).version, 1'234'567U);
 }
 
 TEST_F(MapRoundTrip, PoseTextsAreThePose) {

@@ -86,6 +86,21 @@ std::string depthObject(const DepthSpec& spec) {
   return bytes;
 }
 
+std::string externalPointsObject(const PointCloud& points, const std::filesystem::path& images,
+                                 const std::string& name) {
+  mrpt::obs::CObservation3DRangeScan scan;
+  label(scan, 100.0, "RGBD");
+  scan.hasPoints3D = true;
+  scan.resizePoints3DVectors(points.size());
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    scan.points3D_x[i] = points[i].x();
+    scan.points3D_y[i] = points[i].y();
+    scan.points3D_z[i] = points[i].z();
+  }
+  scan.points3D_convertToExternalStorage(name + ".bin", images.string() + "/");
+  return bytesOf(scan);
+}
+
 std::string cloudObject(double stamp, const std::string& name, const PointCloud& points) {
   mrpt::obs::CObservationPointCloud scan;
   label(scan, stamp, name);

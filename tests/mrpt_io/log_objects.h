@@ -27,6 +27,9 @@ struct DepthSpec {
 
 std::string poseObject(double stamp, const std::string& label, const Pose& pose);
 std::string depthObject(const DepthSpec& spec);
+/// A depth camera's points, without an image; MRPT writes them to `images`/NAME.bin.
+std::string externalPointsObject(const PointCloud& points, const std::filesystem::path& images,
+                                 const std::string& name);
 std::string cloudObject(double stamp, const std::string& label, const PointCloud& points);
 std::string laserObject(double stamp, const std::vector<float>& ranges, float max_range);
 std::string odometryObject(double stamp, double x);

@@ -98,7 +98,7 @@ class FramesDataset final : public Dataset {
     DepthScan scan{i, stamp, "RGBD", *world_T_optical + opticalTSensor(), {}};
     const RawDepth raw = readDepthPng(stem + std::string(kDepthEnding));
     scan.image = placed(escapedText(stem) + std::string(kDepthEnding), [&] {
-      requireSize(raw.width, raw.height);
+      size_.require(raw);
       return depthImage(raw, k_, depthUnit(), kNoReturn);
     });
     std::error_code error;
@@ -116,21 +116,10 @@ class FramesDataset final : public Dataset {
   }
 
  private:
-  void requireSize(int width, int height) {
-    if (width_ == 0) {
-      width_ = width;
-      height_ = height;
-    }
-    if (width != width_ || height != height_)
-      throw InputError("an image of " + std::to_string(width) + " x " + std::to_string(height) +
-                       " pixels instead of " + std::to_string(width_) + " x " + std::to_string(height_));
-  }
-
   FramesOptions options_;
   std::vector<std::filesystem::path> frames_;
   Intrinsics k_;
-  int width_ = 0;
-  int height_ = 0;
+  SequenceSize size_;
 };
 
 }  // namespace

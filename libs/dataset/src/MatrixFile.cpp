@@ -6,6 +6,7 @@
 #include "hoctomap/geometry/Errors.h"
 #include "hoctomap/io/EscapedText.h"
 #include "hoctomap/io/NumberLines.h"
+#include "hoctomap/io/PoseTrack.h"
 
 namespace hoctomap {
 
@@ -31,7 +32,7 @@ Pose nearestPose(const Eigen::Matrix<double, 3, 4>& upper) {
   Eigen::Matrix4d m = Eigen::Matrix4d::Identity();
   m.topLeftCorner<3, 3>() = svd.matrixU() * svd.matrixV().transpose();
   m.topRightCorner<3, 1>() = upper.col(3);
-  return poseFromMatrix(m);
+  return poseFromInput(m, "pose");
 }
 
 Pose poseFromRow(const std::vector<double>& row) {

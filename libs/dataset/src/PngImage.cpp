@@ -109,6 +109,16 @@ RawDepth readDepthPng(const std::filesystem::path& path) {
   return image;
 }
 
+void SequenceSize::require(const RawDepth& image) {
+  if (width == 0) {
+    width = image.width;
+    height = image.height;
+  }
+  if (image.width != width || image.height != height)
+    throw InputError("an image of " + std::to_string(image.width) + " x " + std::to_string(image.height) +
+                     " pixels instead of " + std::to_string(width) + " x " + std::to_string(height));
+}
+
 ColourImage readColourPng(const std::filesystem::path& path) {
   const File file = openPng(path);
   png_image image{};

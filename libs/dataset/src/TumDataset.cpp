@@ -106,7 +106,7 @@ class TumDataset final : public Dataset {
     DepthScan scan{i, listed.stamp, "RGBD", *world_T_optical + opticalTSensor(), {}};
     scan.image = placed(listed.place, [&] {
       const RawDepth raw = readDepthPng(listed.file);
-      requireSize(raw.width, raw.height);
+      size_.require(raw);
       return depthImage(raw, k_, depthUnit(), 0);
     });
     if (const ListedImage* picture = pictureAt(listed.stamp))
@@ -132,8 +132,7 @@ class TumDataset final : public Dataset {
     } else if (file) {
       k_ = file->k;
       camera_from_ = "camera.txt";
-      width_ = file->width;
-      height_ = file->height;
+      size_ = {file->width, file->height};
     } else if (const auto name = cameraInName(options_.folder)) {
       k_ = *namedCamera(*name);
       camera_from_ = *name + " by the name of the folder";
@@ -165,16 +164,6 @@ class TumDataset final : public Dataset {
     return track_.at(stamp - options_.time_offset_s, options_.max_gap_s);
   }
 
-  void requireSize(int width, int height) {
-    if (width_ == 0) {
-      width_ = width;
-      height_ = height;
-    }
-    if (width != width_ || height != height_)
-      throw InputError("an image of " + std::to_string(width) + " x " + std::to_string(height) +
-                       " pixels instead of " + std::to_string(width_) + " x " + std::to_string(height_));
-  }
-
   /// The picture nearest in time; null if none is near enough.
   [[nodiscard]] const ListedImage* pictureAt(double stamp) const {
     const auto distance = [&](const ListedImage& a) { return std::abs(a.stamp - stamp); };
@@ -194,8 +183,7 @@ class TumDataset final : public Dataset {
   PoseTrack track_;
   Intrinsics k_;
   std::string camera_from_;
-  int width_ = 0;  ///< of all depth images; 0: not known yet
-  int height_ = 0;
+  SequenceSize size_;
   double depth_factor_ = kTumDepthFactor;
 };
 

@@ -163,14 +163,6 @@ void Disk::extend(const std::filesystem::path& file, std::uint64_t offset, std::
   out.close();
 }
 
-void Disk::truncate(const std::filesystem::path& file, std::uint64_t size) const {
-  step("truncate", file);
-  Descriptor out(file, O_WRONLY | O_NOFOLLOW, "open");
-  out.resize(size);
-  out.sync();
-  out.close();
-}
-
 void Disk::makeDirectory(const std::filesystem::path& directory) const {
   if (std::filesystem::is_directory(directory)) return;
   step("mkdir", directory);

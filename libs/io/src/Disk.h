@@ -40,7 +40,6 @@ class Disk {
   void link(const std::filesystem::path& from, const std::filesystem::path& to) const;
   /// Puts `bytes` at `offset`, where the file ends from now on, and syncs it.
   void extend(const std::filesystem::path& file, std::uint64_t offset, std::string_view bytes) const;
-  void truncate(const std::filesystem::path& file, std::uint64_t size) const;
   void makeDirectory(const std::filesystem::path& directory) const;
   /// Makes the names in a directory durable.
   void syncDirectory(const std::filesystem::path& directory) const;

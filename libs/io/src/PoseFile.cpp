@@ -23,7 +23,7 @@ Pose tumPose(const std::vector<double>& v) {
   Eigen::Matrix4d matrix = Eigen::Matrix4d::Identity();
   matrix.topLeftCorner<3, 3>() = q.normalized().toRotationMatrix();
   matrix.topRightCorner<3, 1>() = Eigen::Vector3d(v[1], v[2], v[3]);
-  return poseFromMatrix(matrix);
+  return poseFromInput(matrix, "pose");
 }
 
 Pose poseFrom(const std::vector<double>& v) {

@@ -8,14 +8,18 @@
 
 namespace hoctomap {
 
+Pose poseFromInput(const Eigen::Matrix4d& matrix, const std::string& what) {
+  try {
+    return poseFromMatrix(matrix);
+  } catch (const std::invalid_argument& error) {
+    throw InputError("bad " + what + ": " + error.what());
+  }
+}
+
 void PoseTrack::add(double stamp, const Pose& world_T_base) {
   if (!std::isfinite(stamp)) throw InputError("the time is not finite");
   const Eigen::Matrix4d matrix = toIsometry(world_T_base).matrix();
-  try {
-    (void)poseFromMatrix(matrix);
-  } catch (const std::invalid_argument& error) {
-    throw InputError(std::string("bad pose: ") + error.what());
-  }
+  (void)poseFromInput(matrix, "pose");
   const Eigen::Matrix3d rotation = matrix.topLeftCorner<3, 3>();
   const Entry entry{stamp, matrix.topRightCorner<3, 1>(), Eigen::Quaterniond(rotation).normalized()};
   if (!entries_.empty() && entries_.back().stamp == stamp) {

@@ -9,6 +9,7 @@
 #include <type_traits>
 #include <vector>
 
+#include "hoctomap/io/PoseTrack.h"
 #include "hoctomap/io/ScanStream.h"
 
 // The byte level of ScanStream.h, shared by its writer and its reader only.
@@ -100,11 +101,7 @@ class Reader {
     for (int row = 0; row < 3; ++row) {
       for (int column = 0; column < 4; ++column) m(row, column) = get<double>();
     }
-    try {
-      return poseFromMatrix(m);
-    } catch (const std::invalid_argument& e) {
-      throw InputError(std::string("scan stream: bad pose: ") + e.what());
-    }
+    return poseFromInput(m, "pose in the scan stream");
   }
   [[nodiscard]] std::size_t left() const { return in_.size() - at_; }
   void finish() const {

@@ -20,6 +20,8 @@ class ExternalFile {
   /// @throws InputError for an absolute name, one with `..`, and one that leads through a symbolic link.
   ExternalFile(const std::filesystem::path& folder, const std::string& name);
   [[nodiscard]] bool exists() const { return file_.get() >= 0; }
+  /// Open for reading, at the begin; to be asked only if it exists.
+  [[nodiscard]] int descriptor() const { return file_.get(); }
   /// Of its bytes, in hex.
   /// @throws InputError if it cannot be read.
   [[nodiscard]] std::string sha256() const;
@@ -29,7 +31,8 @@ class ExternalFile {
   UniqueFd file_;  ///< none if there is no such regular file
 };
 
-/// Loads what the observation stores outside, after its names were checked. @return false if that fails
+/// Loads what the observation stores outside by MRPT's loader, after its names were checked. @return false if
+/// that fails
 [[nodiscard]] bool loadExternals(const mrpt::obs::CObservation& observation,
                                  const std::filesystem::path& folder);
 

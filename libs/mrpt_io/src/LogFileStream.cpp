@@ -16,7 +16,7 @@ namespace hoctomap {
 
 namespace {
 
-constexpr std::size_t kBufferBytes = std::size_t{1} << 18;
+constexpr std::size_t kBufferBytes = std::size_t{1} << 16;
 constexpr int kGzipWindow = 15 + 16;  // zlib: the largest window, gzip header and trailer
 
 /// Opens a regular file; waits for nothing (a FIFO without a writer would).

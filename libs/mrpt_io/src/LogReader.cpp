@@ -14,6 +14,7 @@
 #include "ScanSelector.h"
 #include "hoctomap/geometry/Errors.h"
 #include "hoctomap/io/EscapedText.h"
+#include "hoctomap/io/PoseTrack.h"
 #include "hoctomap/io/Sha256.h"
 #include "hoctomap/mrpt_io/FileHash.h"
 
@@ -216,12 +217,13 @@ void LogReader::Passes::sendMotion(const ObservationReader& reader, const Observ
     if (warned.insert(text).second) sink(StreamWarning{text}, observed.position);
     return;
   }
+  Pose motion;
   try {
-    const Pose motion = poseFromMatrix(toIsometry(pose->pose.mean).matrix());
-    sink(ObjectMotion{stampOf(*pose).value_or(0.0), *node, motion}, observed.position);
-  } catch (const std::invalid_argument& error) {
-    throw reader.errorHere<InputError>(std::string("bad motion: ") + error.what());
+    motion = poseFromInput(toIsometry(pose->pose.mean).matrix(), "motion");
+  } catch (const InputError& error) {
+    throw reader.errorHere<InputError>(error.what());
   }
+  sink(ObjectMotion{stampOf(*pose).value_or(0.0), *node, motion}, observed.position);
 }
 
 void LogReader::Passes::sendScan(const ObservationReader& reader, const Observed& observed,
@@ -253,14 +255,10 @@ StreamMessage LogReader::Passes::messageFrom(const Observed& observed, std::uint
   const auto world_T_base = poses->worldTBase(observed);
   if (!world_T_base) return SkippedScan{scan, stamp, kNoPose};
 
-  Pose world_T_sensor;
-  try {
-    Pose base_T_sensor;
-    observation.getSensorPose(base_T_sensor);
-    world_T_sensor = poseFromMatrix(toIsometry(*world_T_base + base_T_sensor).matrix());
-  } catch (const std::invalid_argument& error) {
-    throw InputError(std::string("bad sensor pose: ") + error.what());
-  }
+  Pose base_T_sensor;
+  observation.getSensorPose(base_T_sensor);
+  const Pose world_T_sensor =
+      poseFromInput(toIsometry(*world_T_base + base_T_sensor).matrix(), "sensor pose");
   if (auto* image = std::get_if<DepthImage>(&content))
     return DepthScan{scan, stamp, observation.sensorLabel, world_T_sensor, std::move(*image)};
   return CloudScan{scan, stamp, observation.sensorLabel, world_T_sensor,

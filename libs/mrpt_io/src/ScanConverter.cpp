@@ -8,9 +8,14 @@
 #include <mrpt/obs/CObservationRotatingScan.h>
 #include <mrpt/obs/CObservationVelodyneScan.h>
 
+#include <mrpt/system/filesystem.h>
+#include <mrpt/system/string_utils.h>
+
+#include <algorithm>
 #include <cmath>
 #include <optional>
 
+#include "ExternalArrays.h"
 #include "ExternalFiles.h"
 #include "hoctomap/geometry/Errors.h"
 
@@ -23,12 +28,6 @@ using mrpt::obs::CObservationRotatingScan;
 using mrpt::obs::CObservationVelodyneScan;
 
 namespace {
-
-constexpr std::size_t kMaxPoints = 10'000'000;
-
-void checkPoints(std::size_t count) {
-  if (count > kMaxPoints) throw LimitError("a scan of more than " + std::to_string(kMaxPoints) + " points");
-}
 
 template <class X, class Y, class Z>
 SensorScan cloudFrom(const X& x, const Y& y, const Z& z) {
@@ -81,13 +80,31 @@ SensorScan depthFrom(const CObservation3DRangeScan& scan) {
   return image;
 }
 
-/// Loads what the scan stores outside. @return why it cannot be used, if it cannot
-std::optional<Unusable> loadChecked(const mrpt::obs::CObservation& scan,
-                                    const std::filesystem::path& folder) {
-  for (const std::string& name : externalNames(scan)) {
+bool isText(const std::string& name) {
+  constexpr bool kIgnoreGz = true;  // as MRPT tells them
+  return mrpt::system::strCmpI(mrpt::system::extractFileExtension(name, kIgnoreGz), "txt");
+}
+
+/// Loads what the scan stores outside. @return whether it is whole
+bool load(CObservation3DRangeScan& scan, const std::vector<std::string>& names,
+          const std::filesystem::path& folder) {
+  return std::any_of(names.begin(), names.end(), isText) ? loadExternals(scan, folder)
+                                                         : readExternalArrays(scan, folder);
+}
+
+bool load(CObservationPointCloud& scan, const std::vector<std::string>&,
+          const std::filesystem::path& folder) {
+  return loadExternals(scan, folder);
+}
+
+/// The same after its names were checked. @return why it cannot be used, if it cannot
+template <class Scan>
+std::optional<Unusable> loadChecked(Scan& scan, const std::filesystem::path& folder) {
+  const std::vector<std::string> names = externalNames(scan);
+  for (const std::string& name : names) {
     if (!ExternalFile(folder, name).exists()) return Unusable{"missing external file"};
   }
-  if (!loadExternals(scan, folder)) return Unusable{"unreadable external file"};
+  if (!load(scan, names, folder)) return Unusable{"damaged external file"};
   return std::nullopt;
 }
 
@@ -148,6 +165,11 @@ SensorScan convert(const CObservationRotatingScan& scan) {
 }
 
 }  // namespace
+
+void checkPoints(std::size_t count) {
+  constexpr std::size_t kMaxPoints = 10'000'000;
+  if (count > kMaxPoints) throw LimitError("a scan of more than " + std::to_string(kMaxPoints) + " points");
+}
 
 bool isScan(const mrpt::obs::CObservation& observation) {
   if (const auto* rotating = dynamic_cast<const CObservationRotatingScan*>(&observation))

@@ -17,6 +17,9 @@ struct Unusable {
   std::string reason;
 };
 
+/// @throws LimitError if a scan has more than 10^7 points
+void checkPoints(std::size_t count);
+
 /// What the sensor saw, in its own frame (x forward, y left, z up).
 using SensorScan = std::variant<DepthImage, PointCloud, Unusable>;
 

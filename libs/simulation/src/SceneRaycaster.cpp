@@ -31,9 +31,10 @@ void check(RTCDevice device, const char* what) {
 }
 
 // On one thread: the order of triangles in the tree, and with it which of two equally near ones is hit, must
-// not depend on the number of threads.
+// not depend on the number of threads. (rtcJoinCommitScene would go over to Embree's own arena, with all
+// threads.)
 void commit(RTCScene scene) {
-  tbb::task_arena(1).execute([scene] { rtcJoinCommitScene(scene); });
+  tbb::task_arena(1).execute([scene] { rtcCommitScene(scene); });
 }
 
 Device makeDevice() {

@@ -12,6 +12,10 @@
 
 namespace hoctomap {
 
+/// The pose of a homogeneous matrix of foreign numbers. @param what for messages: "pose"
+/// @throws InputError "bad pose: ..." where poseFromMatrix() throws.
+[[nodiscard]] Pose poseFromInput(const Eigen::Matrix4d& matrix, const std::string& what);
+
 /// Poses over time, interpolated between neighbours, never extrapolated.
 class PoseTrack {
  public:
