@@ -4,6 +4,7 @@
 #include <new>
 
 #include "Command.h"
+#include "Terminal.h"
 #include "hoctomap/geometry/Errors.h"
 #include "hoctomap/io/EscapedText.h"
 #include "hoctomap/io/ScanStream.h"
@@ -12,7 +13,7 @@ namespace {
 
 int fail(const std::string& what, int exit_code) {
   // One clear line, whatever stands in the names and values of the input.
-  std::cerr << "hoctomap: " << what << std::endl;
+  std::cerr << hoctomap::coloured("hoctomap: " + what, hoctomap::Colour::red) << std::endl;
   return exit_code;
 }
 
