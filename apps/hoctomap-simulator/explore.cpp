@@ -132,6 +132,7 @@ class Exploration {
     summary_.addUsed(z);
     summary_.addReport(report);
     directory_.append(report);
+    directory_.append(scanRow(z));
     directory_.append(TimingRow{z.scan, z.world_points.size(), 0.0, report.seconds, 0.0});
   }
 

@@ -46,6 +46,7 @@ void MapRun::run(PipeSource& source, Progress& progress) {
       const auto& skipped = std::get<SkippedScan>(next->item);
       last_stamp_ = skipped.stamp;
       summary_.addSkipped(skipped);
+      directory_.append(ScanRow{.scan = skipped.scan, .stamp = skipped.stamp, .skipped = skipped.reason});
       log_.warn("scans skipped: " + skipped.reason + " (first: scan " + std::to_string(skipped.scan) + ")");
       finishScan(skipped.scan);
     }
@@ -91,6 +92,7 @@ void MapRun::integrate(const Measurement& z, PreparedScan prepared, double read_
   summary_.addUsed(z);
   summary_.addReport(report);
   directory_.append(report);
+  directory_.append(scanRow(z));
   for (const auto& event : report.events) {
     if (event.kind == NodeEventKind::updated) continue;
     log_.debug("scan " + std::to_string(z.scan) + ": " + event.label.name + " " +

@@ -24,6 +24,8 @@ void BuildRun::commit(MapDirectory& writer) {
   change();
   const std::uint64_t scan = scans_ - 1;
   writer.append(reportOf(hierarchy_, NodeId{2}, scan));
+  const auto x = static_cast<double>(scan);
+  writer.append(ScanRow{scan, x, "a, b", 1000, Pose(x, 2.0, 3.0), 1.0, 0.75, {}});
   writer.append(TimingRow{scan, 1000, 0.5, {}, 0.25});
   writer.commit({hierarchy_, removed_, scans_, "log", scan == 1});
 }

@@ -14,6 +14,7 @@
 #include "hoctomap/io/MapCheck.h"
 #include "hoctomap/io/MapDirectory.h"
 #include "hoctomap/io/MapReader.h"
+#include "hoctomap/io/MapTables.h"
 
 namespace hoctomap {
 namespace {
@@ -50,6 +51,22 @@ TEST_F(MapCommit, SameRunSameBytes) {
   EXPECT_EQ(files.at("events.csv").substr(0, 50), "scan,time,event,node,label,existence,detail\n0,1290");
   EXPECT_NE(files.at("events.csv").find(",\"a \"\"detail\"\", quoted\"\n"), std::string::npos);
   EXPECT_TRUE(files.contains("hierarchy-000001.yaml"));
+}
+
+TEST_F(MapCommit, ScansAreReadBack) {
+  undisturbed(1);
+  const auto directory = map("undisturbed1");
+  const auto rows = readScans(directory, readManifest(directory));
+  ASSERT_EQ(rows.size(), 3U);
+  EXPECT_EQ(rows[2].scan, 2U);
+  EXPECT_EQ(rows[2].sensor, "a, b");
+  ASSERT_TRUE(rows[2].world_T_sensor.has_value());
+  EXPECT_EQ(rows[2].world_T_sensor->x(), 2.0);
+  EXPECT_NEAR(rows[2].fov_x.value_or(0.0), 57.2957795, 1e-6);
+  EXPECT_EQ(rows[2].skipped, "");
+  // A kept state has the scans up to it.
+  EXPECT_EQ(readScans(directory, readManifest(directory, 1)).size(), 2U);
+  EXPECT_EQ(readTiming(directory, readManifest(directory, 1)).size(), 2U);
 }
 
 TEST_F(MapCommit, OldVersionsGoUnlessKept) {

@@ -179,6 +179,7 @@ Manifest readDocument(const YamlSection& document, const std::string& name) {
   manifest.config = readFile(files["config"]);
   manifest.events = readFile(files["events"]);
   manifest.existence = readFile(files["existence"]);
+  if (files.has("scans")) manifest.scan_table = readFile(files["scans"]);
   if (files.has("events_before_end")) manifest.events_before_end = readFile(files["events_before_end"]);
   if (files.has("seams")) manifest.seams = readFile(files["seams"]);
   if (files.has("scene")) manifest.scene = readFile(files["scene"]);

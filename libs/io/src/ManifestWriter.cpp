@@ -101,6 +101,7 @@ std::string toYaml(const Manifest& manifest) {
   text += "next_id: " + std::to_string(manifest.next_id.value) + "\n";
   text += "files:\n  config: " + fileText(manifest.config) + "\n  events: " + fileText(manifest.events) +
           "\n  existence: " + fileText(manifest.existence) + "\n";
+  if (manifest.scan_table) text += "  scans: " + fileText(*manifest.scan_table) + "\n";
   if (manifest.events_before_end) {
     text += "  events_before_end: " + fileText(*manifest.events_before_end) + "\n";
   }

@@ -30,7 +30,8 @@ std::optional<std::string> problemOf(const std::filesystem::path& directory, con
 }
 
 bool grows(const Manifest& manifest, const FileRecord& file) {
-  return file.path == manifest.events.path || file.path == manifest.existence.path;
+  return file.path == manifest.events.path || file.path == manifest.existence.path ||
+         (manifest.scan_table && file.path == manifest.scan_table->path);
 }
 
 /// Whether the octree, which is whole, is the one that the manifest describes.
@@ -69,9 +70,9 @@ class Checker {
   void findForeign() {
     for (const std::string& name : listDirectory(directory_)) {
       const bool ours = named_.contains(name) || snapshotScan(name) || isSeamsFileName(name);
-      static const std::set<std::string> fixed{kManifestName,   kConfigName, kEventsName, kExistenceName,
-                                               kTimingName,     kLogName,    kSceneName,  kNodesFolder,
-                                               kPreviousFolder, kLockName};
+      static const std::set<std::string> fixed{kManifestName, kConfigName,     kEventsName, kExistenceName,
+                                               kScansName,    kTimingName,     kLogName,    kSceneName,
+                                               kNodesFolder,  kPreviousFolder, kLockName};
       if (!ours && !fixed.contains(name)) check_.foreign.push_back(name);
     }
     for (const std::string& name : listDirectory(directory_ / kNodesFolder)) {

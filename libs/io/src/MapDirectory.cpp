@@ -2,6 +2,8 @@
 #include "hoctomap/io/MapDirectory.h"
 
 #include <algorithm>
+#include <cmath>
+#include <numbers>
 #include <utility>
 
 #include "MapNames.h"
@@ -15,6 +17,24 @@
 
 namespace hoctomap {
 
+namespace {
+
+double degrees(double radians) {
+  return radians * 180.0 / std::numbers::pi;
+}
+
+}  // namespace
+
+ScanRow scanRow(const Measurement& z) {
+  ScanRow row{z.scan, z.stamp, z.sensor, z.world_points.size(), z.world_T_sensor};
+  if (z.image) {
+    const PinholeCamera& camera = z.image->camera;
+    row.fov_x = 2.0 * std::atan2(0.5 * camera.width, camera.fx);
+    row.fov_y = 2.0 * std::atan2(0.5 * camera.height, camera.fy);
+  }
+  return row;
+}
+
 MapDirectory::MapDirectory(std::filesystem::path directory, MapDirectoryOptions options)
     : directory_(std::move(directory)), session_(std::make_unique<Session>(directory_, std::move(options))) {}
 MapDirectory::~MapDirectory() = default;
@@ -27,6 +47,9 @@ void MapDirectory::append(const UpdateReport& report) {
 }
 void MapDirectory::appendEnd(const UpdateReport& report) {
   session_->addEnd(report);
+}
+void MapDirectory::append(const ScanRow& row) {
+  session_->addRow(row);
 }
 void MapDirectory::append(const TimingRow& row) {
   session_->addRow(row);
@@ -59,6 +82,24 @@ void MapDirectory::Session::addEnd(const UpdateReport& report) {
   addRows(report);
 }
 
+void MapDirectory::Session::addRow(const ScanRow& row) {
+  std::string text = std::to_string(row.scan) + "," + shortestText(row.stamp) + "," + csvField(row.sensor) +
+                     "," + std::to_string(row.points);
+  if (row.world_T_sensor) {
+    const Pose& pose = *row.world_T_sensor;
+    for (const double number :
+         {pose.x(), pose.y(), pose.z(), degrees(pose.yaw()), degrees(pose.pitch()), degrees(pose.roll())}) {
+      text += "," + shortestText(number);
+    }
+  } else {
+    text += ",,,,,,";
+  }
+  for (const std::optional<double>& angle : {row.fov_x, row.fov_y}) {
+    text += "," + (angle ? shortestText(degrees(*angle)) : std::string());
+  }
+  scans_.add(text + "," + csvField(row.skipped));
+}
+
 void MapDirectory::Session::addRow(const TimingRow& row) {
   std::string text = std::to_string(row.scan) + "," + std::to_string(row.points);
   for (const double seconds : {row.read_s, row.stages.segment, row.stages.associate, row.stages.update,
@@ -79,6 +120,7 @@ void MapDirectory::Session::commit(const MapState& state) {
   manifest.events_before_end = events_before_end_;
   manifest.seams = writeSeams(state, manifest.edits);
   manifest.existence = existence_.write(disk_, directory_);
+  manifest.scan_table = scans_.write(disk_, directory_);
   static_cast<void>(timing_.write(disk_, directory_));
   disk_.syncDirectory(directory_ / kNodesFolder);
   disk_.syncDirectory(directory_);
@@ -159,6 +201,7 @@ void MapDirectory::Session::commitManifest(const Manifest& manifest, bool keep) 
   // From here on it is the map of the directory, whether or not the last sync succeeds.
   events_.accept();
   existence_.accept();
+  scans_.accept();
   timing_.accept();
   committed_ = manifest;
   disk_.syncDirectory(directory_);

@@ -61,6 +61,7 @@ std::string mapJson(const Manifest& manifest) {
   Json files{{"config", fileJson(manifest.config)},
              {"events", fileJson(manifest.events)},
              {"existence", fileJson(manifest.existence)}};
+  if (manifest.scan_table) files["scans"] = fileJson(*manifest.scan_table);
   if (manifest.scene) files["scene"] = fileJson(*manifest.scene);
   const Json json{{"format_version", manifest.format_version},
                   {"generator", manifest.generator},

@@ -16,6 +16,7 @@ inline constexpr const char* kManifestName = "hierarchy.yaml";
 inline constexpr const char* kConfigName = "config.ini";
 inline constexpr const char* kEventsName = "events.csv";
 inline constexpr const char* kExistenceName = "existence.csv";
+inline constexpr const char* kScansName = "scans.csv";
 inline constexpr const char* kTimingName = "timing.csv";
 inline constexpr const char* kLogName = "log.txt";
 inline constexpr const char* kSceneName = "hierarchy.3Dscene";

@@ -89,6 +89,7 @@ RemovedNode readRemoved(const std::filesystem::path& directory, const NodeRecord
 
 std::vector<FileRecord> Manifest::files() const {
   std::vector<FileRecord> all{config, events, existence};
+  if (scan_table) all.push_back(*scan_table);
   if (seams) all.push_back(*seams);
   if (scene) all.push_back(*scene);
   for (const auto* list : {&nodes, &removed, &waiting}) {

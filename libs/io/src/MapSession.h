@@ -21,6 +21,7 @@ class MapDirectory::Session {
 
   void addRows(const UpdateReport& report);
   void addEnd(const UpdateReport& report);
+  void addRow(const ScanRow& row);
   void addRow(const TimingRow& row);
   void commit(const MapState& state);
   void writeScene(const SceneMaker& maker);
@@ -53,6 +54,7 @@ class MapDirectory::Session {
   NodeFiles node_files_;
   CsvTable events_;
   CsvTable existence_;
+  CsvTable scans_;
   CsvTable timing_;
   std::optional<Manifest> committed_;
   bool overwriting_ = false;     ///< until the first commit

@@ -52,8 +52,8 @@ std::string firstDifference(const std::string& stored, const std::string& given)
 }
 
 bool isOurs(const std::string& name) {
-  for (const char* ours : {kLockName, kManifestName, kConfigName, kEventsName, kExistenceName, kTimingName,
-                           kLogName, kSceneName, kNodesFolder, kPreviousFolder}) {
+  for (const char* ours : {kLockName, kManifestName, kConfigName, kEventsName, kExistenceName, kScansName,
+                           kTimingName, kLogName, kSceneName, kNodesFolder, kPreviousFolder}) {
     if (name == ours) return true;
   }
   return isOurTemporary(name) || snapshotScan(name).has_value();
@@ -69,6 +69,7 @@ MapDirectory::Session::Session(std::filesystem::path directory, MapDirectoryOpti
       node_files_(disk_, directory_),
       events_(kEventsName, "scan,time,event,node,label,existence,detail"),
       existence_(kExistenceName, "scan,node,present,absent,occluded,p_measurement,p_posterior"),
+      scans_(kScansName, "scan,time,sensor,points,x,y,z,yaw,pitch,roll,fov_x,fov_y,skipped"),
       timing_(kTimingName, "scan,points,read_s,segment_s,associate_s,update_s,existence_s,write_s") {
   requireNoLinks();
   if (options_.mode == MapOpenMode::create) {
@@ -121,6 +122,7 @@ void MapDirectory::Session::resume() {
     events_.resume(directory_, manifest.events);
   }
   existence_.resume(directory_, manifest.existence);
+  if (manifest.scan_table) scans_.resume(directory_, *manifest.scan_table);
   timing_.resume(directory_, [&](std::string_view scan) {
     const auto number = parseCount(scan);
     return !number || *number < manifest.scans;  // the header row, and scans that need not be repeated

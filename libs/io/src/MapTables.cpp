@@ -3,10 +3,13 @@
 
 #include <algorithm>
 #include <limits>
+#include <numbers>
 #include <optional>
 #include <string_view>
 
+#include "Disk.h"
 #include "MapFiles.h"
+#include "MapNames.h"
 #include "NumberText.h"
 #include "hoctomap/geometry/Errors.h"
 #include "hoctomap/io/EscapedText.h"
@@ -51,8 +54,8 @@ Row takeRow(std::string_view& text) {
 class Table {
  public:
   Table(const std::filesystem::path& directory, const FileRecord& record)
-      : file_((directory / record.path).string()) {
-    text_ = readChecked(directory, record, true);
+      : Table(directory / record.path, readChecked(directory, record, true)) {}
+  Table(const std::filesystem::path& file, std::string text) : file_(file.string()), text_(std::move(text)) {
     rest_ = text_;
     names_ = takeRow(rest_);
   }
@@ -79,6 +82,9 @@ class Table {
     const auto value = parseNumber(text(name));
     if (!value) refuse("`" + name + "` is no number: " + escapedText(text(name), 60));
     return *value;
+  }
+  [[nodiscard]] std::optional<double> numberIfAny(const std::string& name) const {
+    return text(name).empty() ? std::nullopt : std::optional(number(name));
   }
   [[nodiscard]] NodeId node() const {
     const std::uint64_t id = count("node");
@@ -123,6 +129,40 @@ std::vector<ExistenceRow> readExistence(const std::filesystem::path& directory, 
   while (table.next()) {
     rows.push_back({table.count("scan"), table.node(), table.count("present"), table.count("absent"),
                     table.count("occluded"), table.number("p_measurement"), table.number("p_posterior")});
+  }
+  return rows;
+}
+
+std::vector<ScanTableRow> readScans(const std::filesystem::path& directory, const Manifest& manifest) {
+  std::vector<ScanTableRow> rows;
+  if (!manifest.scan_table) return rows;
+  Table table(directory, *manifest.scan_table);
+  constexpr double kRadians = std::numbers::pi / 180.0;
+  while (table.next()) {
+    ScanTableRow row{table.count("scan"),        table.number("time"), table.text("sensor"),
+                     table.count("points"),      std::nullopt,         table.numberIfAny("fov_x"),
+                     table.numberIfAny("fov_y"), table.text("skipped")};
+    if (table.numberIfAny("x")) {
+      row.world_T_sensor =
+          Pose(table.number("x"), table.number("y"), table.number("z"), kRadians * table.number("yaw"),
+               kRadians * table.number("pitch"), kRadians * table.number("roll"));
+    }
+    rows.push_back(std::move(row));
+  }
+  return rows;
+}
+
+std::vector<TimingTableRow> readTiming(const std::filesystem::path& directory, const Manifest& manifest) {
+  std::vector<TimingTableRow> rows;
+  const auto file = directory / kTimingName;
+  if (!std::filesystem::exists(file)) return rows;
+  Table table(file, readWholeFile(file));
+  while (table.next()) {
+    const TimingTableRow row{table.count("scan"),         table.count("points"),
+                             table.number("read_s"),      table.number("segment_s"),
+                             table.number("associate_s"), table.number("update_s"),
+                             table.number("existence_s"), table.number("write_s")};
+    if (row.scan < manifest.scans) rows.push_back(row);
   }
   return rows;
 }

@@ -20,6 +20,7 @@ bool isAside(const std::string& path) {
 void forEachFile(Manifest& manifest, const std::function<void(FileRecord&)>& visit) {
   for (FileRecord* file : {&manifest.config, &manifest.events, &manifest.existence}) visit(*file);
   if (manifest.events_before_end) visit(*manifest.events_before_end);
+  if (manifest.scan_table) visit(*manifest.scan_table);
   if (manifest.seams) visit(*manifest.seams);
   if (manifest.scene) visit(*manifest.scene);
   for (auto* list : {&manifest.nodes, &manifest.removed, &manifest.waiting}) {
@@ -86,7 +87,7 @@ void removePrevious(const Disk& disk, const std::filesystem::path& directory, co
   if (manifest != nullptr) {
     for (const FileRecord& file : manifest->files()) named.insert(file.path);
   }
-  const std::set<std::string> fixed{kConfigName, kEventsName, kExistenceName, kSceneName};
+  const std::set<std::string> fixed{kConfigName, kEventsName, kExistenceName, kScansName, kSceneName};
   for (const std::string& name : listDirectory(directory / kPreviousFolder)) {
     const bool ours =
         fixed.contains(name) || isNodeFileName(name) || isSeamsFileName(name) || isOurTemporary(name);

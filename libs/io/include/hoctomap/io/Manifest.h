@@ -83,7 +83,8 @@ struct Manifest {
   /// The part of `events` that a run which goes on with the log keeps, if the end of the log added some.
   std::optional<FileRecord> events_before_end;
   FileRecord existence;
-  std::optional<FileRecord> seams;  ///< votes on where objects meet (SeamVotes), for a run that goes on
+  std::optional<FileRecord> scan_table;  ///< `scans.csv`; maps of earlier versions have none
+  std::optional<FileRecord> seams;       ///< votes on where objects meet (SeamVotes), for a run that goes on
   std::optional<FileRecord> scene;
   std::optional<StillSensor> sensor;  ///< of the last scan, for a run that goes on
   std::optional<MotionsTaken> motions;

@@ -9,6 +9,7 @@
 #include <span>
 #include <string>
 
+#include "hoctomap/geometry/Measurement.h"
 #include "hoctomap/hierarchy/MapHierarchy.h"
 #include "hoctomap/io/Manifest.h"
 #include "hoctomap/mapping/SeamVotes.h"
@@ -46,6 +47,21 @@ struct MapState {
   std::uint64_t mapped_scans = 0;   ///< see Manifest
   std::uint64_t skipped_scans = 0;  ///< see Manifest
 };
+
+/// One row of `scans.csv`: where a scan was taken from, or why it is not in the map.
+struct ScanRow {
+  std::uint64_t scan = 0;
+  double stamp = 0.0;  ///< s since 1970
+  std::string sensor{};
+  std::size_t points = 0;
+  std::optional<Pose> world_T_sensor{};  ///< x forward, y left, z up; none if the scan was skipped
+  std::optional<double> fov_x{};         ///< radians, of a depth camera
+  std::optional<double> fov_y{};
+  std::string skipped{};  ///< why; empty if it was mapped
+};
+
+/// The row of a scan that is mapped.
+[[nodiscard]] ScanRow scanRow(const Measurement& z);
 
 /// One row of `timing.csv`: the scan's wall seconds.
 struct TimingRow {
@@ -90,6 +106,7 @@ class MapDirectory {
   void append(const UpdateReport& report);
   /// Rows of `events.csv` that stem from the end of the log: a run that goes on with a longer one drops them.
   void appendEnd(const UpdateReport& report);
+  void append(const ScanRow& row);
   void append(const TimingRow& row);
 
   /// Makes `state` the map of the directory.
