@@ -23,12 +23,14 @@ packages=(
   libegl1 libgl1-mesa-dri
   # manual pages are tried with man
   man-db
-  # tests; octomap-tools, mrpt-apps, pcl-tools and python3-yaml open our results
-  libgtest-dev octomap-tools mrpt-apps pcl-tools xvfb python3-yaml python3-pil
+  # tests; octomap-tools, mrpt-apps, pcl-tools, python3-yaml and chromium open our results
+  libgtest-dev octomap-tools mrpt-apps pcl-tools xvfb python3-yaml python3-pil chromium
+  # the reference of the libraries
+  doxygen
   # benchmarks, and plots of the experiments
   libbenchmark-dev gnuplot-nox
 )
-# The glTF validator of the tests comes by npm, which brings many packages where it is not there in some other way.
+# The page of reports is bundled from packages of npm, and tests use some; it brings many packages where it is not there in some other way.
 command -v npm >/dev/null || packages+=(nodejs npm)
 
 missing=()
@@ -48,8 +50,11 @@ else
 fi
 
 # Anew only when the lock file is newer than what was installed by it.
-gltf=$(dirname "$0")/../tests/gltf
-if [ ! "$gltf/node_modules/.package-lock.json" -nt "$gltf/package-lock.json" ]; then
-  npm ci --prefix "$gltf" --no-audit --no-fund ||
-    echo "install_dependencies.sh: npm ci failed: the test that validates glTF files will be skipped" >&2
-fi
+npm_packages() {  # FOLDER, and what is missing without them
+  [ ! "$1/node_modules/.package-lock.json" -nt "$1/package-lock.json" ] || return 0
+  npm ci --prefix "$1" --no-audit --no-fund || echo "install_dependencies.sh: npm ci failed: $2" >&2
+}
+root=$(dirname "$0")/..
+npm_packages "$root/libs/report/web" "hoctomap report will say that it is missing"
+npm_packages "$root/tests/gltf" "the test that validates glTF files will be skipped"
+npm_packages "$root/tests/report" "the tests of reports in a browser will be skipped"

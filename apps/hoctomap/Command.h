@@ -15,6 +15,7 @@ void addBuildCommand(CLI::App& app, Action& action);
 void addSegmentCommand(CLI::App& app, Action& action);
 void addInfoCommand(CLI::App& app, Action& action);
 void addRenderCommand(CLI::App& app, Action& action);
+void addReportCommand(CLI::App& app, Action& action);
 void addExplainCommand(CLI::App& app, Action& action);
 void addDiffCommand(CLI::App& app, Action& action);
 void addQueryCommand(CLI::App& app, Action& action);

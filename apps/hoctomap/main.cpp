@@ -13,6 +13,7 @@ int main(int argc, char** argv) {
   hoctomap::addSegmentCommand(app, action);
   hoctomap::addInfoCommand(app, action);
   hoctomap::addRenderCommand(app, action);
+  hoctomap::addReportCommand(app, action);
   hoctomap::addExplainCommand(app, action);
   hoctomap::addDiffCommand(app, action);
   hoctomap::addQueryCommand(app, action);

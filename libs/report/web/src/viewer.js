@@ -1,0 +1,190 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Draws one map, or two side by side from the same eye; draws only when something has changed.
+import { Frustum, Matrix4, Vector3, WebGLRenderer, WebGLRenderTarget } from "three";
+import { Eye } from "./camera.js";
+import { HELPERS } from "./mapScene.js";
+
+const BUILD_MS = 12; // of meshing between two pictures
+// Triangles of a picture, at rest and while it moves: with a graphics card, and without.
+const TRIANGLES = { card: [8e6, 4e6], software: [6e5, 2.5e5] };
+
+/** Whether the browser draws without a graphics card. */
+function drawsInSoftware() {
+  const gl = document.createElement("canvas").getContext("webgl2");
+  const info = gl?.getExtension("WEBGL_debug_renderer_info");
+  const name = info ? gl.getParameter(info.UNMASKED_RENDERER_WEBGL) : "";
+  gl?.getExtension("WEBGL_lose_context")?.loseContext();
+  return /swiftshader|llvmpipe|software/i.test(name);
+}
+
+export class Viewer {
+  constructor(canvas, mapScenes) {
+    this.canvas = canvas;
+    this.mapScenes = mapScenes;
+    this.software = drawsInSoftware();
+    this.renderer = new WebGLRenderer({ canvas, antialias: !this.software, powerPreference: "high-performance" });
+    this.renderer.autoClear = false;
+    this.renderer.setPixelRatio(this.software ? 1 : Math.min(2, window.devicePixelRatio));
+    this.eye = new Eye(canvas, () => this.moved());
+    this.eye.camera.layers.enable(HELPERS);
+    this.pickTarget = new WebGLRenderTarget(1, 1);
+    this.background = "#ffffff";
+    this.lastMove = -Infinity;
+    this.afterDraw = () => {};
+    this.onPick = () => {};
+    new ResizeObserver(() => this.resize()).observe(canvas.parentElement);
+    this.#listenForClicks();
+    this.resize();
+  }
+
+  moved() {
+    this.lastMove = performance.now();
+    this.invalidate();
+  }
+
+  invalidate() {
+    if (this.pending) return;
+    this.pending = requestAnimationFrame(() => {
+      this.pending = 0;
+      this.draw();
+    });
+  }
+
+  resize() {
+    const { clientWidth: width, clientHeight: height } = this.canvas.parentElement;
+    if (width === 0 || height === 0) return;
+    this.renderer.setSize(width, height, false);
+    this.views = this.#layout(width, height);
+    this.eye.resize(this.views[0].width / this.views[0].height);
+    this.invalidate();
+  }
+
+  /** The part of the canvas of each map, in CSS pixels from the top left. */
+  #layout(width, height) {
+    const n = this.mapScenes.length;
+    const beside = width >= height;
+    return this.mapScenes.map((mapScene, i) => ({
+      mapScene,
+      x: beside ? (i * width) / n : 0,
+      y: beside ? 0 : (i * height) / n,
+      width: beside ? width / n : width,
+      height: beside ? height : height / n,
+    }));
+  }
+
+  draw() {
+    const start = performance.now();
+    const { renderer } = this;
+    const { camera } = this.eye;
+    const moving = start - this.lastMove < 250;
+    const perRadian = (this.views[0].height * renderer.getPixelRatio()) / (2 * Math.tan((camera.fov * Math.PI) / 360));
+    const wanted = [];
+    renderer.setScissorTest(false);
+    renderer.setClearColor(this.background);
+    renderer.clear();
+    const height = this.canvas.clientHeight;
+    const pixels = this.#pixelsOfCells(perRadian, moving);
+    for (const view of this.views) {
+      for (const model of this.#shownModels(view)) model.update(pixels, wanted);
+      const rectangle = [view.x, height - view.y - view.height, view.width, view.height];
+      renderer.setViewport(...rectangle);
+      renderer.setScissor(...rectangle);
+      renderer.setScissorTest(true);
+      renderer.render(view.mapScene.scene, camera);
+    }
+    const built = this.#build(wanted);
+    this.afterDraw({ settled: wanted.length === 0 && !moving });
+    if (built) this.invalidate();
+    else if (moving) setTimeout(() => this.invalidate(), 260);
+  }
+
+  #shownModels(view) {
+    return [...view.mapScene.models.values()].filter((model) => model.group.visible);
+  }
+
+  /** How large cells may be on the screen, so that the picture does not have too many triangles. */
+  #pixelsOfCells(perRadian, moving) {
+    const { camera } = this.eye;
+    camera.updateMatrixWorld();
+    const frustum = new Frustum().setFromProjectionMatrix(new Matrix4().multiplyMatrices(camera.projectionMatrix, camera.matrixWorldInverse));
+    const models = this.views.flatMap((view) => {
+      view.mapScene.scene.updateMatrixWorld();
+      return this.#shownModels(view);
+    });
+    for (const model of models) model.measure(camera, frustum, perRadian);
+    const most = TRIANGLES[this.software ? "software" : "card"][moving ? 1 : 0];
+    let pixels = this.software ? 1.6 : 1.1;
+    while (pixels < 32 && models.reduce((sum, model) => sum + model.triangles(pixels), 0) > most) pixels *= 1.2;
+    return pixels;
+  }
+
+  /** Makes meshes for some milliseconds: those of chunks that show nothing first, then the nearest. */
+  #build(wanted) {
+    if (wanted.length === 0) return false;
+    const end = performance.now() + BUILD_MS;
+    wanted.sort((a, b) => (a.chunk.shown ? 1 : 0) - (b.chunk.shown ? 1 : 0) || b.level - a.level);
+    for (const { model, chunk, level } of wanted) {
+      // Something coarse at once; the rest when its turn comes.
+      model.build(chunk, chunk.shown ? level : Math.max(level, 2));
+      if (performance.now() > end) break;
+    }
+    return true;
+  }
+
+  /** The view under a place of the canvas (CSS pixels). */
+  viewAt(x, y) {
+    return this.views.find((v) => x >= v.x && x < v.x + v.width && y >= v.y && y < v.y + v.height) ?? this.views[0];
+  }
+
+  /** Id of the node seen at a place of the canvas; null if there is none. */
+  pick(x, y) {
+    const view = this.viewAt(x, y);
+    const { camera } = this.eye;
+    const saved = [];
+    for (const [id, { material, group, freeMesh }] of view.mapScene.models) {
+      const { colour, mode } = material.uniforms;
+      saved.push({ colour, mode, old: colour.value.clone(), oldMode: mode.value, freeMesh, free: freeMesh?.visible });
+      if (freeMesh) freeMesh.visible = false;
+      if (!group.visible) continue;
+      mode.value = 3;
+      colour.value.set(((id + 1) & 255) / 255, (((id + 1) >> 8) & 255) / 255, (((id + 1) >> 16) & 255) / 255);
+    }
+    camera.setViewOffset(view.width, view.height, x - view.x, y - view.y, 1, 1);
+    camera.layers.disable(HELPERS);
+    this.renderer.setRenderTarget(this.pickTarget);
+    this.renderer.setScissorTest(false);
+    this.renderer.setClearColor(0x000000);
+    this.renderer.clear();
+    this.renderer.render(view.mapScene.scene, camera);
+    const pixel = new Uint8Array(4);
+    this.renderer.readRenderTargetPixels(this.pickTarget, 0, 0, 1, 1, pixel);
+    this.renderer.setRenderTarget(null);
+    camera.layers.enable(HELPERS);
+    camera.clearViewOffset();
+    for (const { colour, mode, old, oldMode, freeMesh, free } of saved) {
+      colour.value.copy(old);
+      mode.value = oldMode;
+      if (freeMesh) freeMesh.visible = free;
+    }
+    const id = pixel[0] + 256 * pixel[1] + 65536 * pixel[2] - 1;
+    return { id: id >= 0 ? id : null, mapScene: view.mapScene };
+  }
+
+  /** Where a point of the world is on the canvas (CSS pixels), as seen in a view; null behind the eye. */
+  place(point, view) {
+    const p = new Vector3().copy(point).project(this.eye.camera);
+    if (p.z > 1) return null;
+    return { x: view.x + (0.5 + 0.5 * p.x) * view.width, y: view.y + (0.5 - 0.5 * p.y) * view.height };
+  }
+
+  #listenForClicks() {
+    let down = null;
+    this.canvas.addEventListener("pointerdown", (event) => (down = event));
+    this.canvas.addEventListener("pointerup", (event) => {
+      if (!down || Math.hypot(event.clientX - down.clientX, event.clientY - down.clientY) > 4) return;
+      const box = this.canvas.getBoundingClientRect();
+      this.onPick(this.pick(event.clientX - box.left, event.clientY - box.top));
+      this.invalidate();
+    });
+  }
+}

@@ -1,0 +1,102 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The page of `hoctomap report`: as a file, and in Debian's Chromium (tests/report), where both are installed.
+#include <gtest/gtest.h>
+
+#include "TableLogs.h"
+
+namespace hoctomap {
+namespace {
+
+using test::TemporaryFolder;
+
+/// One run of the occlusion scene for all tests of this file: object 2 is removed after scan 9.
+class Report : public testing::Test {
+ protected:
+  static void SetUpTestSuite() {
+    folder_ = new TemporaryFolder;
+    test::simulate("occlusion", file("a.rawlog"));
+    test::build(file("a.rawlog"), map(), {"--snapshot-every", "4"});
+  }
+  static void TearDownTestSuite() { delete folder_; }
+  static std::string file(const std::string& name) { return *folder_ / name; }
+  static std::string map() { return file("map"); }
+
+  static void make(const std::vector<std::string>& arguments) {
+    std::vector<std::string> all{"report"};
+    all.insert(all.end(), arguments.begin(), arguments.end());
+    const auto outcome = test::hoctomap(all);
+    ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
+  }
+
+  /// Runs a script of tests/report; what it prints is what is wrong.
+  static void tryOut(const std::string& script, const std::vector<std::string>& arguments) {
+    const std::filesystem::path folder(HOCTOMAP_REPORT_TEST);
+    if (!std::filesystem::exists(folder / "node_modules/playwright-core") ||
+        !std::filesystem::exists("/usr/bin/chromium")) {
+      GTEST_SKIP() << "needs Chromium and playwright-core (scripts/install_dependencies.sh)";
+    }
+    std::vector<std::string> all{(folder / script).string()};
+    all.insert(all.end(), arguments.begin(), arguments.end());
+    const auto outcome = test::runProgram("/usr/bin/env", [&] {
+      std::vector<std::string> line{"node"};
+      line.insert(line.end(), all.begin(), all.end());
+      return line;
+    }());
+    EXPECT_EQ(outcome.exit_code, 0) << outcome.out << outcome.err;
+  }
+
+ private:
+  static inline const TemporaryFolder* folder_ = nullptr;
+};
+
+TEST_F(Report, SameMapSameBytesWhichNeedNothingElse) {
+  make({map(), "-o", file("one.html")});
+  make({map(), "-o", file("two.html")});
+  const std::string page = test::readFile(file("one.html"));
+  EXPECT_EQ(page, test::readFile(file("two.html")));
+  EXPECT_NE(page.find("id=\"a0\""), std::string::npos);
+  EXPECT_NE(page.find("id=\"a2\""), std::string::npos) << "of the removed node";
+  for (const char* loads : {"src=\"http", "href=\"http", "@import", "url(http", "<link rel=\"stylesheet"}) {
+    EXPECT_EQ(page.find(loads), std::string::npos) << loads;
+  }
+  EXPECT_LT(page.size(), 4'000'000U);
+}
+
+TEST_F(Report, BadUseIsNamed) {
+  const auto two = test::hoctomap({"report", map(), map(), "-o", file("x.html")});
+  EXPECT_EQ(two.exit_code, 2) << two.err;
+  EXPECT_NE(two.err.find("--compare"), std::string::npos) << two.err;
+  EXPECT_EQ(test::hoctomap({"report", "--compare", map(), "-o", file("x.html")}).exit_code, 2);
+  EXPECT_EQ(test::hoctomap({"report", file("none"), "-o", file("x.html")}).exit_code, 4);
+  EXPECT_EQ(test::hoctomap({"report", "--experiments", file("none"), "-o", file("x.html")}).exit_code, 5);
+  EXPECT_EQ(test::hoctomap({"report", "--experiments", map() + "/nodes", "-o", file("x.html")}).exit_code, 3);
+  EXPECT_EQ(test::hoctomap({"report", map(), "-o", file("none/x.html")}).exit_code, 5);
+  EXPECT_FALSE(std::filesystem::exists(file("x.html")));
+}
+
+TEST_F(Report, WorksInChromium) {
+  make({map(), "-o", file("map.html")});
+  tryOut("look.mjs", {file("map.html"), HOCTOMAP_REPORT_TEST "/reference"});
+}
+
+TEST_F(Report, AComparisonWorksInChromium) {
+  test::simulate("occlusion", file("b.rawlog"));
+  test::build(file("b.rawlog"), file("before"), {"--max-scans", "4"});
+  make({"--compare", file("before"), map(), "-o", file("compare.html")});
+  tryOut("opens.mjs", {file("compare.html"), ".stage", ".change"});
+}
+
+TEST_F(Report, ExperimentsWorkInChromium) {
+  std::filesystem::create_directory(file("vi-a"));
+  test::writeFile(file("vi-a/vi_a.csv"),
+                  "set,resolution_mm,method,seconds,seconds_origin,spread,bytes,bytes_origin,runs\n"
+                  "table,8,hierarchy,0.5,measured,0.1,1000000,measured,3\n"
+                  "table,4,hierarchy,0.9,measured,0.1,2000000,measured,3\n"
+                  "table,8,monolithic,3,measured,0.1,9000000,measured,3\n"
+                  "table,4,monolithic,30,measured,0.1,80000000,measured,3\n");
+  make({"--experiments", file("vi-a"), "-o", file("experiments.html")});
+  tryOut("opens.mjs", {file("experiments.html"), ".tableplot", ".controls input"});
+}
+
+}  // namespace
+}  // namespace hoctomap
