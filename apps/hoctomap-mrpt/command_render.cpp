@@ -8,6 +8,7 @@
 #include "Verb.h"
 #include "hoctomap/geometry/Errors.h"
 #include "hoctomap/io/MapReader.h"
+#include "hoctomap/io/MapTables.h"
 #include "hoctomap/mrpt_io/RenderMap.h"
 
 namespace hoctomap {
@@ -25,6 +26,23 @@ void parseSize(const std::string& text, RenderOptions& options) {
   } catch (...) {
     throw ConfigError("--size: \"" + text + "\" is not of the form WIDTHxHEIGHT");
   }
+}
+
+/// `sensor`: from where the last scan was taken; `sensor:K`: scan K. None for other views.
+std::optional<SensorView> sensorView(const std::string& view, const std::string& map,
+                                     const Manifest& manifest) {
+  const std::string name = "sensor";
+  if (view != name && !view.starts_with(name + ":")) return std::nullopt;
+  const std::string number = view == name ? "" : view.substr(name.size() + 1);
+  std::optional<SensorView> found;
+  for (const ScanTableRow& row : readScans(map, manifest)) {
+    if (!row.world_T_sensor || (!number.empty() && number != std::to_string(row.scan))) continue;
+    found = SensorView{*row.world_T_sensor};
+    if (row.fov_x && row.fov_y) found = SensorView{*row.world_T_sensor, *row.fov_x, *row.fov_y};
+  }
+  if (!found)
+    throw ConfigError("--view " + view + ": the map does not know of such a scan where it was taken from");
+  return found;
 }
 
 }  // namespace
@@ -51,7 +69,9 @@ void addRenderCommand(CLI::App& app, VerbRun& run) {
     run = [=] {
       for (const std::string& label : *hidden) options->hidden.insert(Label{label});
       if (!size->empty()) parseSize(*size, *options);
-      renderMap(readMap(*map, {.at_scan = *at_scan}).hierarchy, *options, *out);
+      const StoredMap stored = readMap(*map, {.at_scan = *at_scan});
+      options->sensor = sensorView(options->view, *map, stored.manifest);
+      renderMap(stored.hierarchy, *options, *out);
       return 0;
     };
   });

@@ -5,6 +5,7 @@
 #include <iostream>
 #include <new>
 
+#include "Terminal.h"
 #include "hoctomap/geometry/Errors.h"
 #include "hoctomap/io/EscapedText.h"
 #include "hoctomap/io/ScanStream.h"
@@ -15,7 +16,7 @@ namespace {
 
 int fail(const std::string& what, int exit_code) {
   // One clear line, whatever stands in the names and values of the input.
-  std::cerr << "hoctomap: " << what << std::endl;
+  std::cerr << coloured("hoctomap: " + what, Colour::red) << std::endl;
   return exit_code;
 }
 

@@ -9,6 +9,8 @@
 #include <iostream>
 #include <sstream>
 
+#include "Terminal.h"
+
 namespace hoctomap {
 
 namespace {
@@ -37,7 +39,7 @@ std::string Progress::status(std::uint64_t scans, std::optional<std::size_t> nod
   if (nodes) text << ", " << *nodes << (*nodes == 1 ? " node" : " nodes");
   text << ", " << mrpt::system::getMemoryUsage() / (1024UL * 1024UL) << " MB";
   if (total_ && rate > 0.0 && scans <= *total_) {
-    text << ", " << std::setprecision(0) << static_cast<double>(*total_ - scans) / rate << " s left";
+    text << ", " << durationText(static_cast<double>(*total_ - scans) / rate) << " left";
   }
   return text.str();
 }
@@ -55,7 +57,7 @@ void Progress::show(std::uint64_t scans, std::optional<std::size_t> nodes) {
   std::string bar;
   if (total_ && *total_ > 0) {
     const auto filled = static_cast<int>(std::min(scans, *total_) * kBarWidth / *total_);
-    bar = "[" + std::string(static_cast<std::size_t>(filled), '#') +
+    bar = "[" + coloured(std::string(static_cast<std::size_t>(filled), '#'), Colour::green) +
           std::string(static_cast<std::size_t>(kBarWidth - filled), '.') + "] ";
   }
   std::cerr << "\r\033[K" << bar << status(scans, nodes) << std::flush;

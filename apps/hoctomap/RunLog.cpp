@@ -3,6 +3,7 @@
 
 #include <iostream>
 
+#include "Terminal.h"
 #include "hoctomap/io/EscapedText.h"
 
 namespace hoctomap {
@@ -44,7 +45,7 @@ void RunLog::write(std::string_view text, VerbosityLevel level) {
   }
   if (level < shown_) return;
   if (line_in_progress_) std::cerr << "\r\033[K";
-  std::cerr << line << std::flush;
+  std::cerr << (level == mrpt::system::LVL_WARN ? coloured(line, Colour::yellow) : line) << std::flush;
 }
 
 }  // namespace hoctomap

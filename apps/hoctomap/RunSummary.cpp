@@ -4,7 +4,58 @@
 #include <iomanip>
 #include <sstream>
 
+#include "TextTable.h"
+#include "hoctomap/io/EscapedText.h"
+
 namespace hoctomap {
+
+namespace {
+
+std::string percentText(double share) {
+  return fixedText(100.0 * share, 0) + " %";
+}
+
+/// Stages in the order of the work.
+std::string stageTable(const std::map<std::string, double>& seconds) {
+  double sum = 0.0;
+  for (const auto& [stage, spent] : seconds) sum += spent;
+  TextTable table({"stage", "seconds", "share"});
+  for (const char* stage : {"read", "segment", "associate", "update", "existence", "write"}) {
+    const auto found = seconds.find(stage);
+    if (found == seconds.end()) continue;
+    table.add({stage, fixedText(found->second, 2), percentText(sum > 0.0 ? found->second / sum : 0.0)});
+  }
+  return table.text();
+}
+
+}  // namespace
+
+std::string labelTable(const Manifest& manifest) {
+  struct Sum {
+    std::uint64_t nodes = 0;
+    std::uint64_t occupied = 0;
+    std::uint64_t free = 0;
+    std::uint64_t memory = 0;
+  };
+  std::map<std::string, Sum> sums;
+  Sum all;
+  for (const NodeRecord& node : manifest.nodes) {
+    for (Sum* sum : {&sums[node.label.name], &all}) {
+      ++sum->nodes;
+      sum->occupied += node.voxels.occupied;
+      sum->free += node.voxels.free;
+      sum->memory += node.memory_bytes;
+    }
+  }
+  TextTable table({"label", "nodes", "occupied", "free voxels", "memory [MB]"});
+  const auto add = [&table](const std::string& name, const Sum& sum) {
+    table.add({name, std::to_string(sum.nodes), std::to_string(sum.occupied), std::to_string(sum.free),
+               fixedText(1e-6 * static_cast<double>(sum.memory), 1)});
+  };
+  for (const auto& [label, sum] : sums) add(escapedText(label, 60), sum);
+  add("all", all);
+  return table.text();
+}
 
 void RunSummary::addUsed(const Measurement& z) {
   ++used_;
@@ -40,11 +91,7 @@ std::string RunSummary::text() const {
   if (beyond_key_range_ > 0) {
     out << "points     " << beyond_key_range_ << " endpoints beyond what an octree can address dropped\n";
   }
-  if (!seconds_.empty()) {
-    out << "seconds   " << std::fixed << std::setprecision(2);
-    for (const auto& [stage, seconds] : seconds_) out << " " << stage << " " << seconds;
-    out << "\n";
-  }
+  if (!seconds_.empty()) out << "\n" << stageTable(seconds_);
   return out.str();
 }
 

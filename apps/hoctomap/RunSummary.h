@@ -5,6 +5,7 @@
 #include <map>
 #include <string>
 
+#include "hoctomap/io/Manifest.h"
 #include "hoctomap/mapping/MeasurementSource.h"
 #include "hoctomap/mapping/UpdateReport.h"
 
@@ -42,5 +43,8 @@ class RunSummary {
   std::map<std::string, std::uint64_t> skipped_;
   std::map<std::string, double> seconds_;
 };
+
+/// Nodes, voxels and memory of a map by label, as a table that ends with a newline.
+[[nodiscard]] std::string labelTable(const Manifest& manifest);
 
 }  // namespace hoctomap

@@ -100,7 +100,9 @@ int build(const BuildOptions& options) {
   // A stopped run ends at once; the scene is no part of the map's state.
   if (StopSignal::requested() == 0) directory.writeScene(std::ref(make_scene));
 
-  std::cout << describeMap(readManifest(directory.path())) << "\n"
+  const Manifest after = readManifest(directory.path());
+  std::cout << describeMap(after) << "\n"
+            << labelTable(after) << "\n"
             << run.summary().text() << "map        " << options.log.output << std::endl;
   if (const int signal = StopSignal::requested()) {
     log.warn("stopped by signal " + std::to_string(signal) +

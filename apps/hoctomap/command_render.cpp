@@ -37,13 +37,16 @@ void addRenderCommand(CLI::App& app, Action& action) {
   CLI::App* command =
       addCommand(app, "render", "Make a picture of a map, without a display",
                  {"hoctomap render map -o map.png", "hoctomap render map -o top.png --view top",
+                  "hoctomap render map -o scan3.png --view sensor:3",
                   "hoctomap render map -o things.png --hide background"});
   command->add_option("map", options->map, "map directory")->type_name("DIR")->required();
   command->add_option("-o,--output", options->output, "the picture")->type_name("PNG")->required();
   command->add_option("--size", options->size, "in pixels")->type_name("WxH");
   command
-      ->add_option("--view", options->view,
-                   "oblique (default), front, back, left, right, top, or AZIMUTH,ELEVATION in degrees")
+      ->add_option(
+          "--view", options->view,
+          "oblique (default), front, back, left, right, top, sensor or sensor:SCAN (as a scan saw it), or "
+          "AZIMUTH,ELEVATION in degrees")
       ->type_name("VIEW");
   command->add_option("--hide", options->hidden, "leave out the nodes of a label; may be repeated")
       ->type_name("LABEL")

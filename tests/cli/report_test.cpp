@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The page of `hoctomap report`: as a file, and in Debian's Chromium (tests/report), where both are installed.
+// The page of `hoctomap report`: as a file, and in Debian's Chromium (tests/report), where both are
+// installed.
 #include <gtest/gtest.h>
 
 #include "TableLogs.h"
@@ -69,9 +70,34 @@ TEST_F(Report, BadUseIsNamed) {
   EXPECT_EQ(test::hoctomap({"report", "--compare", map(), "-o", file("x.html")}).exit_code, 2);
   EXPECT_EQ(test::hoctomap({"report", file("none"), "-o", file("x.html")}).exit_code, 4);
   EXPECT_EQ(test::hoctomap({"report", "--experiments", file("none"), "-o", file("x.html")}).exit_code, 5);
-  EXPECT_EQ(test::hoctomap({"report", "--experiments", map() + "/nodes", "-o", file("x.html")}).exit_code, 3);
+  std::filesystem::create_directory(file("empty"));
+  EXPECT_EQ(test::hoctomap({"report", "--experiments", file("empty"), "-o", file("x.html")}).exit_code, 3);
   EXPECT_EQ(test::hoctomap({"report", map(), "-o", file("none/x.html")}).exit_code, 5);
   EXPECT_FALSE(std::filesystem::exists(file("x.html")));
+}
+
+TEST_F(Report, APictureAsAScanSawIt) {
+  const auto render = [](const std::string& view) {
+    return test::hoctomap({"render", map(), "--size", "320x240", "--view", view, "-o", file(view + ".png")});
+  };
+  ASSERT_EQ(render("sensor").exit_code, 0);
+  ASSERT_EQ(render("sensor:2").exit_code, 0);
+  ASSERT_EQ(render("top").exit_code, 0);
+  // The sensor of this scene stands still.
+  EXPECT_EQ(test::readFile(file("sensor.png")), test::readFile(file("sensor:2.png")));
+  EXPECT_NE(test::readFile(file("sensor.png")), test::readFile(file("top.png")));
+  const auto none = render("sensor:99");
+  EXPECT_EQ(none.exit_code, 2);
+  EXPECT_NE(none.err.find("sensor:99"), std::string::npos) << none.err;
+}
+
+TEST_F(Report, ASummaryAtTheEndAndColoursOnlyOnTerminals) {
+  const auto outcome = test::build(file("a.rawlog"), file("summary"), {"--max-scans", "2"});
+  for (const char* row : {"label ", "free voxels", "background ", "all ", "scans ", "2 used, 0 skipped",
+                          "stage ", "segment "}) {
+    EXPECT_NE(outcome.out.find(row), std::string::npos) << row << " in\n" << outcome.out;
+  }
+  EXPECT_EQ((outcome.out + outcome.err).find('\033'), std::string::npos);
 }
 
 TEST_F(Report, WorksInChromium) {

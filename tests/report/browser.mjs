@@ -34,7 +34,7 @@ export async function settle(page) {
     const now = await page.evaluate(() => document.documentElement.dataset.settled);
     if (now !== undefined && now === before) return;
     before = now;
-    await page.waitForTimeout(450);
+    await page.waitForTimeout(300);
   }
 }
 

@@ -3,6 +3,8 @@
 // tries it out. Usage: node look.mjs REPORT.html REFERENCE_FOLDER [--update]
 import { existsSync, readFileSync, writeFileSync } from "node:fs";
 import { join, resolve } from "node:path";
+import { inflateSync } from "node:zlib";
+import { decodeOctree } from "../../libs/report/web/src/octree.js";
 import { launch, layoutProblems, open, pictureOf } from "./browser.mjs";
 import { countPixels, decodePng, difference } from "./png.mjs";
 
@@ -19,6 +21,19 @@ const changes = async (page, text, action, least = 0.002) => {
 const isCyan = (r, g, b) => g > r + 50 && b > r + 50 && Math.abs(g - b) < 50;
 const rowOf = (page, id) => page.locator(`.row[data-node="${id}"]`);
 const setScan = (page, scan) => page.locator("#scan").fill(String(scan));
+
+// Every voxel is in the page: as many as the manifest counts.
+const html = readFileSync(report, "latin1");
+const block = (id) => new Uint8Array(inflateSync(Buffer.from(html.match(new RegExp(`id="${id}">([^<]*)<`))[1], "base64")));
+const [map] = JSON.parse(Buffer.from(block("page")).toString()).maps;
+for (const node of [...map.nodes, ...map.removed]) {
+  const { chunks, free } = decodeOctree(block(map.prefix + node.id));
+  const occupied = chunks.reduce((sum, chunk) => sum + chunk.voxels.length, 0);
+  let freeVoxels = 0;
+  for (let i = 3; i < free.length; i += 4) freeVoxels += free[i] ** 3;
+  check(occupied === node.occupied_voxels, `node ${node.id} has ${occupied} voxels, not ${node.occupied_voxels}`);
+  check(freeVoxels === node.free_voxels, `node ${node.id} has ${freeVoxels} free voxels, not ${node.free_voxels}`);
+}
 
 const browser = await launch();
 const page = await open(browser, report, {}, problems);

@@ -126,6 +126,23 @@ const std::vector<std::string>& renderViews() {
   return names;
 }
 
+RenderCamera cameraOf(const SensorView& sensor, const MapHierarchy& hierarchy, double aspect) {
+  const Eigen::Isometry3d world_T_sensor = toIsometry(sensor.world_T_sensor);
+  const Eigen::Vector3d eye = world_T_sensor.translation();
+  const Eigen::Vector3d forward = world_T_sensor.linear().col(0);
+  Eigen::AlignedBox3d bounds;
+  for (const Eigen::Vector3d& point : corners(hierarchy, {})) bounds.extend(point);
+  RenderCamera camera;
+  camera.distance = std::max(0.3, (bounds.center() - eye).dot(forward));
+  camera.target = eye + camera.distance * forward;
+  camera.azimuth = mrpt::RAD2DEG(std::atan2(-forward.y(), -forward.x()));
+  camera.elevation = mrpt::RAD2DEG(std::asin(std::clamp(-forward.z(), -1.0, 1.0)));
+  const double slope =
+      std::max(std::tan(0.5 * DEG2RAD(sensor.fov_y)), std::tan(0.5 * DEG2RAD(sensor.fov_x)) / aspect);
+  camera.field_of_view = mrpt::RAD2DEG(2.0 * std::atan(slope));
+  return camera;
+}
+
 RenderCamera cameraFor(const MapHierarchy& hierarchy, const std::string& view, double aspect,
                        const std::set<Label>& hidden) {
   const auto points = corners(hierarchy, hidden);

@@ -18,6 +18,11 @@ struct RenderCamera {
   double field_of_view = 30.0;                       ///< degrees, of the picture's height
 };
 
+struct SensorView;
+
+/// The camera of a sensor. @param hierarchy what it looks at, for the distance
+[[nodiscard]] RenderCamera cameraOf(const SensorView& sensor, const MapHierarchy& hierarchy, double aspect);
+
 /// A camera that frames tables and objects (the background if there are none).
 /// @param aspect width over height of the picture. @param hidden labels of nodes that are left out.
 /// @throws ConfigError if there is no such view.

@@ -33,8 +33,9 @@ mrpt::img::CImage picture(const MapHierarchy& hierarchy, const RenderOptions& op
   scene.insert(sceneOf(hierarchy, {true, options.labels, options.labels, options.hidden}));
   auto viewport = scene.getViewport();
   viewport->setCustomBackgroundColor({1.0F, 1.0F, 1.0F});
-  const RenderCamera view =
-      cameraFor(hierarchy, options.view, static_cast<double>(options.width) / options.height, options.hidden);
+  const double aspect = static_cast<double>(options.width) / options.height;
+  const RenderCamera view = options.sensor ? cameraOf(*options.sensor, hierarchy, aspect)
+                                           : cameraFor(hierarchy, options.view, aspect, options.hidden);
   viewport->setViewportClipDistances(static_cast<float>(0.02 * view.distance),
                                      static_cast<float>(20.0 * view.distance));
   mrpt::opengl::CFBORender renderer(kSamples * options.width, kSamples * options.height);

@@ -155,11 +155,6 @@ export class MapScene {
       const now = scan === state.scan;
       object.visible = scan <= state.scan;
       object.material.color.set(now ? "#e8622c" : "#7d8794");
-      object.scale.setScalar(1);
     }
-  }
-
-  dispose() {
-    this.scene.clear();
   }
 }

@@ -3,7 +3,8 @@ import { Color, ShaderMaterial, Vector2, Vector3 } from "three";
 import { SCALE } from "./colours.js";
 
 const vertexShader = `
-attribute vec4 cell; // x, y, z, direction + 8 class
+attribute vec4 cell; // x, y, z, direction + 8 class + 64 corner
+uniform float pixel; // metres of a pixel at a distance of one metre
 varying vec3 vCell;
 varying vec3 vNormal;
 varying vec3 vInPlane;
@@ -13,10 +14,13 @@ void main() {
   float direction = mod(cell.w, 8.0);
   vec3 axis = vec3(direction < 2.0, direction >= 2.0 && direction < 4.0, direction >= 4.0);
   vInPlane = 1.0 - axis;
-  vClass = floor(cell.w / 8.0) / 7.0;
+  vClass = mod(floor(cell.w / 8.0), 8.0) / 7.0;
   vNormal = normalize(mat3(modelMatrix) * axis * (2.0 * mod(direction, 2.0) - 1.0));
-  vCell = cell.xyz;
-  vec4 world = modelMatrix * vec4(cell.xyz, 1.0);
+  // A third of a pixel larger, so that nothing shines through where rectangles of several sizes meet.
+  vec3 corner = mix(vec3(-1.0), vec3(1.0), axis.zxy * mod(floor(cell.w / 64.0), 2.0) + axis.yzx * floor(cell.w / 128.0)) * vInPlane;
+  float depth = -(modelViewMatrix * vec4(cell.xyz, 1.0)).z;
+  vCell = cell.xyz + corner * 0.34 * pixel * depth / length(modelMatrix[0].xyz);
+  vec4 world = modelMatrix * vec4(vCell, 1.0);
   vHeight = world.z;
   gl_Position = projectionMatrix * viewMatrix * world;
 }`;
@@ -81,6 +85,7 @@ export function voxelMaterial({ transparent = false } = {}) {
       scale: { value: SCALE.map(plain) },
       light: { value: new Vector3(0.36, -0.48, 0.8) },
       glow: { value: 0 },
+      pixel: { value: 0 },
       opacity: { value: transparent ? 0.3 : 1 },
     },
   });

@@ -15,10 +15,12 @@ export const probabilityClass = (p) => Math.max(0, Math.min(7, ((p - 128) >> 4))
  * The surface of cells in a cube of n (<= 128) cells a side.
  * @param {Uint32Array|number[]} list the filled cells, x + n y + n n z
  * @param {Uint8Array} cells class + 1 of each cell of the cube; 0: empty
+ * @param {Uint8Array[]} [beyond] for each direction what is filled beyond that side: row (axis + 2) n + column (axis + 1)
  * @returns {Uint8Array} four vertices a rectangle, counter-clockwise from outside, each x, y, z (cells) and
- *   direction | class << 3; direction: 2 axis + (1 if it looks up that axis)
+ *   direction | class << 3 | corner << 6; direction: 2 axis + (1 if it looks up that axis); corner: which of the
+ *   four, bit 0 along the next axis, bit 1 along the one after
  */
-function surface(n, list, cells, faces) {
+function surface(n, list, cells, faces, beyond) {
   let out = new Uint8Array(4096);
   let length = 0;
   const stride = [1, n, n * n];
@@ -46,7 +48,7 @@ function surface(n, list, cells, faces) {
       rowOf.fill(0);
       for (const cell of list) {
         const p = [cell % n, ((cell / n) | 0) % n, (cell / (n * n)) | 0];
-        if (p[axis] !== border && cells[cell + step]) continue;
+        if (p[axis] !== border ? cells[cell + step] : beyond?.[2 * axis + side]?.[p[v] * n + p[u]]) continue;
         faces[(p[axis] * n + p[v]) * n + p[u]] = cells[cell];
         touched[p[axis]] = 1;
         rowOf[p[axis] * n + p[v]] = 1;
@@ -76,7 +78,7 @@ function surface(n, list, cells, faces) {
             for (const [a, b] of corners) {
               vertex[u] = column + a * width;
               vertex[v] = row + b * height;
-              push(vertex, code);
+              push(vertex, code | (a << 6) | (b << 7));
             }
           }
         }
@@ -86,9 +88,26 @@ function surface(n, list, cells, faces) {
   return out.slice(0, length);
 }
 
-/** The surface of a chunk's voxels (octree.js), in cells of 2^level voxels: of each the largest probability. */
-export function meshChunk(voxels, level) {
+/** The cells of a neighbouring chunk that touch this one, which it stands beside in a direction. */
+function touching(voxels, level, direction) {
   const n = 64 >> level;
+  const axis = direction >> 1;
+  const near = direction & 1 ? 0 : n - 1;
+  const plane = new Uint8Array(n * n);
+  for (const voxel of voxels) {
+    const p = [0, 6, 12].map((shift) => ((voxel >> shift) & 63) >> level);
+    if (p[axis] === near) plane[p[(axis + 2) % 3] * n + p[(axis + 1) % 3]] = 1;
+  }
+  return plane;
+}
+
+/**
+ * The surface of a chunk's voxels (octree.js), in cells of 2^level voxels: of each the largest probability.
+ * @param neighbours voxels of the chunks beside it by direction, so that there is no wall between them
+ */
+export function meshChunk(voxels, level, neighbours = []) {
+  const n = 64 >> level;
+  const beyond = neighbours.map((beside, direction) => beside && touching(beside, level, direction));
   const { cells, faces } = scratch(n);
   const list = [];
   for (const voxel of voxels) {
@@ -100,7 +119,7 @@ export function meshChunk(voxels, level) {
     if (!cells[cell]) list.push(cell);
     if (cells[cell] < kind) cells[cell] = kind;
   }
-  const mesh = surface(n, list, cells, faces);
+  const mesh = surface(n, list, cells, faces, beyond);
   for (const cell of list) cells[cell] = 0;
   return mesh;
 }

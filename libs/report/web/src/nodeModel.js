@@ -83,7 +83,8 @@ export class NodeModel {
    * Shows every chunk as finely as there is a mesh for it, and says which meshes are wanted.
    * @param {{chunk, level, model}[]} wanted is added to
    */
-  update(pixels, wanted) {
+  update(pixels, pixelsPerRadian, wanted) {
+    this.material.uniforms.pixel.value = 1 / pixelsPerRadian;
     for (const chunk of this.chunks) {
       const level = levelOf(chunk, pixels);
       if (!chunk.meshes[level] && chunk.inPicture) wanted.push({ model: this, chunk, level });
@@ -97,9 +98,19 @@ export class NodeModel {
     }
   }
 
+  /** Voxels of the chunks beside one, by direction (mesher.js). */
+  #neighbours(chunk) {
+    this.byPlace ??= new Map(this.chunks.map((each) => [`${each.x},${each.y},${each.z}`, each.voxels]));
+    return [0, 1, 2, 3, 4, 5].map((direction) => {
+      const place = [chunk.x, chunk.y, chunk.z];
+      place[direction >> 1] += direction & 1 ? CHUNK : -CHUNK;
+      return this.byPlace.get(place.join(","));
+    });
+  }
+
   build(chunk, level) {
     const cell = this.node.resolution * 2 ** level;
-    const mesh = meshOf(meshChunk(chunk.voxels, level), this.material, CHUNK >> level);
+    const mesh = meshOf(meshChunk(chunk.voxels, level, this.#neighbours(chunk)), this.material, CHUNK >> level);
     const corner = new Vector3(chunk.x, chunk.y, chunk.z).subScalar(ORIGIN).multiplyScalar(this.node.resolution);
     mesh.matrix.makeScale(cell, cell, cell).setPosition(corner);
     mesh.visible = false;

@@ -4,7 +4,7 @@ import { Frustum, Matrix4, Vector3, WebGLRenderer, WebGLRenderTarget } from "thr
 import { Eye } from "./camera.js";
 import { HELPERS } from "./mapScene.js";
 
-const BUILD_MS = 12; // of meshing between two pictures
+const BUILD_MS = [12, 250]; // of meshing between two pictures: while it moves, and at most at rest
 // Triangles of a picture, at rest and while it moves: with a graphics card, and without.
 const TRIANGLES = { card: [8e6, 4e6], software: [6e5, 2.5e5] };
 
@@ -30,6 +30,7 @@ export class Viewer {
     this.pickTarget = new WebGLRenderTarget(1, 1);
     this.background = "#ffffff";
     this.lastMove = -Infinity;
+    this.lastDraw = 0;
     this.afterDraw = () => {};
     this.onPick = () => {};
     new ResizeObserver(() => this.resize()).observe(canvas.parentElement);
@@ -85,14 +86,16 @@ export class Viewer {
     const height = this.canvas.clientHeight;
     const pixels = this.#pixelsOfCells(perRadian, moving);
     for (const view of this.views) {
-      for (const model of this.#shownModels(view)) model.update(pixels, wanted);
+      for (const model of this.#shownModels(view)) model.update(pixels, perRadian, wanted);
       const rectangle = [view.x, height - view.y - view.height, view.width, view.height];
       renderer.setViewport(...rectangle);
       renderer.setScissor(...rectangle);
       renderer.setScissorTest(true);
       renderer.render(view.mapScene.scene, camera);
     }
-    const built = this.#build(wanted);
+    // At rest, as long as a picture takes: where drawing is slow, few pictures are drawn until all is there.
+    const built = this.#build(wanted, moving ? BUILD_MS[0] : Math.max(BUILD_MS[0], Math.min(BUILD_MS[1], start - this.lastDraw)));
+    this.lastDraw = start;
     this.afterDraw({ settled: wanted.length === 0 && !moving });
     if (built) this.invalidate();
     else if (moving) setTimeout(() => this.invalidate(), 260);
@@ -119,9 +122,9 @@ export class Viewer {
   }
 
   /** Makes meshes for some milliseconds: those of chunks that show nothing first, then the nearest. */
-  #build(wanted) {
+  #build(wanted, milliseconds) {
     if (wanted.length === 0) return false;
-    const end = performance.now() + BUILD_MS;
+    const end = performance.now() + milliseconds;
     wanted.sort((a, b) => (a.chunk.shown ? 1 : 0) - (b.chunk.shown ? 1 : 0) || b.level - a.level);
     for (const { model, chunk, level } of wanted) {
       // Something coarse at once; the rest when its turn comes.

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <filesystem>
+#include <optional>
 #include <set>
 #include <string>
 #include <vector>
@@ -10,12 +11,20 @@
 
 namespace hoctomap {
 
+/// A picture as a sensor would have taken it, but upright.
+struct SensorView {
+  Pose world_T_sensor;  ///< x forward, y left, z up
+  double fov_x = 60.0;  ///< degrees; all of this is in the picture
+  double fov_y = 45.0;
+};
+
 struct RenderOptions {
   unsigned width = 1600;   ///< pixels
   unsigned height = 1000;  ///< pixels
   std::string view = "oblique";
-  bool labels = false;       ///< also the boxes of the nodes and their labels
-  std::set<Label> hidden{};  ///< nodes of these labels are left out
+  std::optional<SensorView> sensor{};  ///< instead of `view`
+  bool labels = false;                 ///< also the boxes of the nodes and their labels
+  std::set<Label> hidden{};            ///< nodes of these labels are left out
 };
 
 /// What `RenderOptions::view` may be, besides `AZIMUTH,ELEVATION` (degrees, of the eye as seen from what is
