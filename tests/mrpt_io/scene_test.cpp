@@ -120,7 +120,7 @@ Colours coloursOf(const std::filesystem::path& file) {
 
 TEST_F(SceneTest, PictureShowsAllThreeColours) {
   const auto file = folder_ / "map.png";
-  renderMap(smallMap(), {400, 300, "oblique", false}, file);
+  renderMap(smallMap(), {400, 300, "oblique"}, file);
   const Colours colours = coloursOf(file);
   EXPECT_GT(colours.cyan, 100U);
   EXPECT_GT(colours.magenta, 5000U);
@@ -129,7 +129,7 @@ TEST_F(SceneTest, PictureShowsAllThreeColours) {
 
 TEST_F(SceneTest, LabelsCanBeHidden) {
   const auto file = folder_ / "map.png";
-  RenderOptions options{400, 300, "oblique", false};
+  RenderOptions options{400, 300, "oblique"};
   options.hidden = {labels::background, Label{"none_has_it"}};
   renderMap(smallMap(), options, file);
   EXPECT_GT(coloursOf(file).cyan, 100U);
@@ -140,12 +140,12 @@ TEST_F(SceneTest, LabelsCanBeHidden) {
 }
 
 TEST_F(SceneTest, OptionsAreChecked) {
-  EXPECT_THROW(renderMap(smallMap(), {0, 300, "oblique", false}, folder_ / "x.png"), ConfigError);
-  EXPECT_THROW(renderMap(smallMap(), {400, 300, "sideways", false}, folder_ / "x.png"), ConfigError);
+  EXPECT_THROW(renderMap(smallMap(), {0, 300, "oblique"}, folder_ / "x.png"), ConfigError);
+  EXPECT_THROW(renderMap(smallMap(), {400, 300, "sideways"}, folder_ / "x.png"), ConfigError);
   for (const std::string view : {"150", "150,", "150;25", "150,25m", "150,95", "nan,25"}) {
-    EXPECT_THROW(renderMap(smallMap(), {400, 300, view, false}, folder_ / "x.png"), ConfigError) << view;
+    EXPECT_THROW(renderMap(smallMap(), {400, 300, view}, folder_ / "x.png"), ConfigError) << view;
   }
-  EXPECT_NO_THROW(renderMap(smallMap(), {400, 300, "-150,25.5", false}, folder_ / "x.png"));
+  EXPECT_NO_THROW(renderMap(smallMap(), {400, 300, "-150,25.5"}, folder_ / "x.png"));
 }
 
 }  // namespace
