@@ -1,9 +1,9 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: BSD-3-Clause
-# Line and branch coverage of our own code by tests. Needs gcovr (Debian package of that name).
+# Coverage of our own code by tests: lines, and decisions with both outcomes. Needs gcovr (Debian package of that name).
 #   scripts/coverage.sh io          by the tests of libs/io, of libs/io; likewise for any other library
 #   scripts/coverage.sh all         by all tests, of everything
-# The full report is build/coverage/coverage.txt.
+# Lines that are missing: build/coverage/coverage.txt; decisions: build/coverage/decisions.txt.
 set -euo pipefail
 cd "$(dirname "$0")/.."
 what=${1:?a library, or all}
@@ -23,7 +23,8 @@ if [ "$what" = all ]; then
 else
   "$build/tests/$what/test_$what"
 fi
-# Branches of exceptions that the compiler adds to every call are none of ours.
-gcovr -r . --object-directory "$build" --exclude-throw-branches "${filter[@]}" -o "$build/coverage.txt"
-gcovr -r . --object-directory "$build" --exclude-throw-branches --branches "${filter[@]}" > "$build/branches.txt"
-tail -n 4 "$build/coverage.txt" "$build/branches.txt"
+# Of branches, only decisions count (if, loops, switch): gcov's own number is mostly clean-up after exceptions.
+gcovr -r . --object-directory "$build" "$build/libs" "$build/apps" "${filter[@]}" --decisions --json "$build/coverage.json"
+gcovr -r . --add-tracefile "$build/coverage.json" -o "$build/coverage.txt"
+python3 scripts/coverage_table.py "$build/coverage.json" > "$build/decisions.txt"
+sed '/^$/q' "$build/decisions.txt"
