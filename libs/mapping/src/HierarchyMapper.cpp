@@ -68,6 +68,7 @@ UpdateReport HierarchyMapper::integrate(const Measurement& z, PreparedScan prepa
   // III-C, step 1: segments with their labels.
   std::vector<LabelledPart>& parts = prepared.parts;
   report.seconds.segment = prepared.seconds;
+  report.seconds.associate = prepared.seam_seconds;  // votes on seams are about which node is which
 
   if (!sensor_ || !sensor_->isAt(z.world_T_sensor)) sensor_ = StillSensor{z.world_T_sensor, z.scan};
   // What the whole measurement says of the nodes, before anything of it is integrated (III-D).
@@ -127,13 +128,14 @@ UpdateReport HierarchyMapper::integrate(const Measurement& z, PreparedScan prepa
 
 PreparedScan HierarchyMapper::prepare(const Measurement& z) const {
   PreparedScan prepared;
-  double seconds = 0.0;
   {
-    const StageTimer timer(seconds);
+    const StageTimer timer(prepared.seconds);
     prepared.parts = segmentAndLabel(z);
-    if (config_.seam_votes) prepared.seams = seamsBetween(prepared.parts, z.origin());
   }
-  prepared.seconds = seconds;
+  if (config_.seam_votes) {
+    const StageTimer timer(prepared.seam_seconds);
+    prepared.seams = seamsBetween(prepared.parts, z.origin());
+  }
   return prepared;
 }
 

@@ -29,8 +29,9 @@ struct LabelledPart {
 /// A scan after the first step of its integration, which does not depend on the map: S(z) and L(z).
 struct PreparedScan {
   std::vector<LabelledPart> parts;
-  ScanSeams seams;       ///< between the parts; empty without `seam_votes`
-  double seconds = 0.0;  ///< wall time that it took
+  ScanSeams seams;            ///< between the parts; empty without `seam_votes`
+  double seconds = 0.0;       ///< wall time that S and L took
+  double seam_seconds = 0.0;  ///< and what the scan says of seams
 };
 
 }  // namespace hoctomap
