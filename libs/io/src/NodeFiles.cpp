@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "NodeFiles.h"
 
-#include <tbb/parallel_invoke.h>
 #include <tbb/parallel_pipeline.h>
 
 #include <algorithm>
@@ -29,26 +28,17 @@ NodeFiles::Made NodeFiles::make(const MapNode& node) {
         std::string(kNodesFolder) + "/" + nodeFileStem(node.id(), node.version, node.edition) + extension;
     return FileRecord{path, bytes.size(), sha256Hex(bytes)};
   };
-  Made made{&node, {}, {}, {}};
+  Made made{&node, {}, otBytes(node.map().tree()), btBytes(node.map().tree())};
   Contents& contents = made.contents;
-  tbb::parallel_invoke(
-      [&] {
-        made.ot = otBytes(node.map().tree());
-        contents.ot = recordOf(".ot", made.ot);
-      },
-      [&] {
-        made.bt = btBytes(node.map().tree());
-        contents.bt = recordOf(".bt", made.bt);
-      },
-      [&] {
-        contents.voxels = node.map().countVoxels();
-        contents.memory_bytes = node.map().tree().memoryUsage();
-      });
   const Eigen::AlignedBox3d& box = node.map().occupiedBox();
   if (!box.isEmpty()) {
     contents.box_center = box.center();
     contents.box_half_extents = (0.5 * box.sizes()).array() + node.map().resolution();
   }
+  contents.voxels = node.map().countVoxels();
+  contents.memory_bytes = node.map().tree().memoryUsage();
+  contents.ot = recordOf(".ot", made.ot);
+  contents.bt = recordOf(".bt", made.bt);
   return made;
 }
 
