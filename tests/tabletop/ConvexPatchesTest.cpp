@@ -120,6 +120,21 @@ TEST(ConvexPatches, StackedBoxesAreAsManyAsThereAre) {
   expectEachIsOne(desk, desk.look());
 }
 
+// Fronts in one plane: between the two there is a crease above the lower one, and nothing below its top.
+TEST(ConvexPatches, BoxesWithFlushFrontsAreTwo) {
+  Desk desk;
+  desk.put(BoxShape{{0.10, 0.12, 0.17}}, 0.0, -0.06);
+  desk.put(BoxShape{{0.16, 0.12, 0.09}}, 0.03, 0.06);
+  expectEachIsOne(desk, desk.look(), 0.85);
+}
+
+TEST(ConvexPatches, ABoxFlushWithTheFrontOfTheOneBelowIsTwo) {
+  Desk desk;
+  const auto low = desk.put(BoxShape{{0.18, 0.24, 0.12}}, 0.0, 0.0);
+  desk.put(BoxShape{{0.10, 0.10, 0.08}}, -0.04, 0.07, 0.0, low);
+  expectEachIsOne(desk, desk.look(), 0.85);
+}
+
 TEST(ConvexPatches, BowlsAndCupsAreWhole) {
   Desk desk;
   desk.put(TurnedShape{{{0.04, 0.0}, {0.065, 0.02}, {0.08, 0.05}, {0.085, 0.07}}, 0.004, {}}, 0.0, 0.25);
