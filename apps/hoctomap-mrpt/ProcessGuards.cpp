@@ -6,6 +6,7 @@
 #include <sys/prctl.h>
 #include <sys/resource.h>
 #include <sys/stat.h>
+#include <sys/time.h>
 #include <unistd.h>
 
 #include <cerrno>
@@ -53,10 +54,13 @@ class SafeText {
 /// What the handler needs. A signal handler takes no context, so this is one of the few things of which a
 /// process has one.
 struct CrashReport {
+  LastWord kind = LastWord::stream_message;
   int fd = -1;
   const ReadProgress* progress = nullptr;
   std::vector<std::string> names;
   std::vector<unsigned char> stack;  // for stack overflows
+  StreamPosition watched;            // the object whose time is taken
+  std::uint64_t seconds = 0;
 };
 
 CrashReport& crashReport() {
@@ -64,23 +68,47 @@ CrashReport& crashReport() {
   return report;
 }
 
+void sayLine(int fd, const char* text) {
+  for (const char* piece : {"hoctomap-mrpt: ", text, "\n"}) {
+    if (write(fd, piece, std::strlen(piece)) < 0) return;
+  }
+}
+
 void onCrash(int signal) {
   const CrashReport& report = crashReport();
   const StreamPosition at = report.progress->get();
+  const bool too_long = signal == SIGXCPU || signal == SIGPROF;
   SafeText text;
   text.add(at.log < report.names.size() ? report.names[at.log].c_str() : "the log");
   text.add(": object ");
   text.add(at.object);
   text.add(" at byte ");
   text.add(at.offset);
-  text.add(signal == SIGXCPU ? ": takes too long to read" : ": crashes the log reader (signal ");
-  if (signal != SIGXCPU) {
+  text.add(too_long ? ": takes too long to read" : ": crashes the log reader (signal ");
+  if (!too_long) {
     text.add(static_cast<std::uint64_t>(signal));
     text.add("): it is damaged");
   }
-  const int code = signal == SIGXCPU ? 6 : 3;
-  sendErrorFromSignalHandler(report.fd, code, text.get(), at);
+  const int code = too_long ? 6 : 3;
+  if (report.kind == LastWord::stream_message)
+    sendErrorFromSignalHandler(report.fd, code, text.get(), at);
+  else
+    sayLine(report.fd, text.get());
   _exit(code);
+}
+
+/// Once a second of CPU time.
+void onTick(int signal) {
+  constexpr std::uint64_t kSecondsOfAnObject = 5;
+  constexpr std::uint64_t kBytesOfASecond = std::uint64_t{4} << 20;
+  CrashReport& report = crashReport();
+  const StreamPosition at = report.progress->get();
+  const bool same = at.log == report.watched.log && at.object == report.watched.object;
+  report.watched = at;
+  report.seconds = report.progress->in_object && same ? report.seconds + 1 : 0;
+  const std::uint64_t read = report.progress->read;
+  const std::uint64_t given = read > at.offset ? read - at.offset : 0;
+  if (report.seconds > kSecondsOfAnObject + given / kBytesOfASecond) onCrash(signal);
 }
 
 }  // namespace
@@ -107,8 +135,10 @@ void limitProcess(const LogReadOptions& options) {
   if (fstat(STDOUT_FILENO, &out) == 0 && !S_ISREG(out.st_mode)) setLimit(RLIMIT_FSIZE, 0);
 }
 
-void reportCrashes(int fd, const std::vector<std::filesystem::path>& logs, const ReadProgress& progress) {
+void reportCrashes(LastWord kind, int fd, const std::vector<std::filesystem::path>& logs,
+                   const ReadProgress& progress) {
   CrashReport& report = crashReport();
+  report.kind = kind;
   report.fd = fd;
   report.progress = &progress;
   report.names.clear();
@@ -121,6 +151,11 @@ void reportCrashes(int fd, const std::vector<std::filesystem::path>& logs, const
   action.sa_flags = SA_ONSTACK | static_cast<int>(SA_RESETHAND);
   for (const int signal : {SIGSEGV, SIGBUS, SIGABRT, SIGFPE, SIGILL, SIGXCPU})
     sigaction(signal, &action, nullptr);
+  action.sa_handler = onTick;
+  action.sa_flags = SA_RESTART;
+  sigaction(SIGPROF, &action, nullptr);
+  const itimerval every_second{{1, 0}, {1, 0}};
+  setitimer(ITIMER_PROF, &every_second, nullptr);
 }
 
 int takeOverOutput() {

@@ -12,7 +12,7 @@ int streamLog(const LogReadOptions& options, int stream) {
   ReadProgress progress;
   try {
     ScanStreamWriter writer(stream);
-    reportCrashes(stream, options.logs, progress);
+    reportCrashes(LastWord::stream_message, stream, options.logs, progress);
     try {
       LogReader reader(options, progress);
       reader.stream(

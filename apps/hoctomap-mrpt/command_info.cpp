@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include <unistd.h>
+
 #include <iostream>
 #include <memory>
 
@@ -26,6 +28,7 @@ void addInfoCommand(CLI::App& app, VerbRun& run) {
       setAllocationCeiling(kLargestArray);
       confine();
       ReadProgress progress;
+      reportCrashes(LastWord::line_of_text, STDERR_FILENO, options->logs, progress);
       const LogInfo info = describeLog(*options, progress);
       std::cout << (*json ? info.json : info.text) << std::flush;
       return info.damaged ? 3 : 0;

@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include <signal.h>
+
 #include <iostream>
 #include <memory>
 
@@ -36,7 +38,11 @@ int info(const InfoOptions& options) {
   if (options.at_scan) throw ConfigError("--at-scan is for maps; " + options.path + " is no map directory");
   std::vector<std::string> arguments{"info", options.path};
   if (options.json) arguments.emplace_back("--json");
-  return runHelper(arguments);
+  const int code = runHelper(arguments);
+  // A reader that crashes says so itself; one that is killed cannot.
+  if (code == 128 + SIGKILL)
+    throw LimitError(options.path + ": the log reader was killed, out of memory or of processor time");
+  return code;
 }
 
 }  // namespace

@@ -116,5 +116,82 @@ TEST_F(ExternalFile, MoreThanTenMillionPixelsAreALimit) {
   EXPECT_THROW(readImage(test::gz(large)), LimitError);
 }
 
+/// A log of one cloud in a file beside it.
+class ExternalCloud : public ExternalFile {
+ protected:
+  [[nodiscard]] std::vector<StreamMessage> readCloud(test::CloudFormat format,
+                                                     const std::string& file) const {
+    static_cast<void>(folder_.write("log_Images/cloud", file));
+    return read(test::externalCloudObject(format, "cloud"));
+  }
+  void expectPoints(test::CloudFormat format, const std::string& file) const {
+    const auto scans = test::only<CloudScan>(readCloud(format, file));
+    ASSERT_EQ(scans.size(), 1U) << file;
+    EXPECT_EQ(scans[0].sensor_points, points_) << file;
+  }
+  [[nodiscard]] std::string records() const {
+    std::string bytes;
+    for (const auto& p : points_) {
+      const float record[4] = {p.x(), p.y(), p.z(), 0.5F};
+      bytes.append(reinterpret_cast<const char*>(record), sizeof record);
+    }
+    return bytes;
+  }
+  const PointCloud points_{{1.F, 2.F, 3.F}, {-0.5F, 0.25F, 1e-3F}, {4.F, 5.F, 6.F}};
+};
+
+TEST_F(ExternalCloud, IsReadInEachOfItsFormats) {
+  for (const std::string& map : {test::mapObject(points_), test::gz(test::mapObject(points_))})
+    expectPoints(test::CloudFormat::map_object, map);
+  for (const std::string& file : {records(), test::gz(records())})
+    expectPoints(test::CloudFormat::records, file);
+  for (const char* text :
+       {"1 2 3\n-0.5 .25 1e-3\n4 5 6", "# x y z\n1,2,3,9\r\n\n-0.5, 0.25, 0.001, 9\n4 5 6 9\n"})
+    expectPoints(test::CloudFormat::text, text);
+  EXPECT_EQ(
+      test::only<SkippedScan>(read(test::externalCloudObject(test::CloudFormat::text, "no"))).at(0).reason,
+      "missing external file");
+}
+
+TEST_F(ExternalCloud, WhatIsCutOrContinuedIsASkippedScan) {
+  for (const std::string& map : {test::mapObject(points_), test::gz(test::mapObject(points_))}) {
+    for (std::size_t size = 0; size < map.size(); ++size)
+      expectSkipped(readCloud(test::CloudFormat::map_object, map.substr(0, size)), std::to_string(size));
+    expectSkipped(readCloud(test::CloudFormat::map_object, map + "x"), "continued");
+  }
+  for (const std::string& file : {records() + "x", test::gz(records()).substr(0, 40)})
+    expectSkipped(readCloud(test::CloudFormat::records, file), "records");
+  for (const char* text : {"", "1 2", "1 2 3\n4 5 6 7\n", "1 2 three\n", "1 2 3\n4 5\n"})
+    expectSkipped(readCloud(test::CloudFormat::text, text), text);
+}
+
+TEST_F(ExternalCloud, WhatIsNoCloudIsASkippedScan) {
+  expectSkipped(readCloud(test::CloudFormat::map_object, test::imuObject(1.0)), "another object");
+  expectSkipped(readCloud(test::CloudFormat::map_object, test::nullObject()), "none");
+  expectSkipped(readCloud(test::CloudFormat::map_object, records()), "another format");
+  expectSkipped(readCloud(static_cast<test::CloudFormat>(77), records()), "a format that is not known");
+}
+
+TEST_F(ExternalCloud, WhatIsFlippedInACompressedMapIsASkippedScan) {
+  const std::string file = test::gz(test::mapObject(points_));
+  constexpr std::size_t kHeader = 10;  // of gzip: times and names, which mean nothing
+  std::size_t without_effect = 0;
+  for (std::size_t at = kHeader; at < file.size(); ++at) {
+    std::string flipped = file;
+    flipped[at] = static_cast<char>(flipped[at] ^ 0x10);
+    const auto messages = readCloud(test::CloudFormat::map_object, flipped);
+    if (test::only<CloudScan>(messages).empty())
+      expectSkipped(messages, "flipped at " + std::to_string(at));
+    else
+      ++without_effect;
+  }
+  EXPECT_LE(without_effect, 1U) << "the last byte of the compressed data has bits that mean nothing";
+}
+
+TEST_F(ExternalCloud, MoreThanTenMillionPointsAreALimit) {
+  const std::string large(std::size_t{16} * 10'000'001, '\0');
+  EXPECT_THROW(readCloud(test::CloudFormat::records, test::gz(large)), LimitError);
+}
+
 }  // namespace
 }  // namespace hoctomap

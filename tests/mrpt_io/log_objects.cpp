@@ -62,6 +62,12 @@ mrpt::obs::CObservationRobotPose::Ptr robotPose(double stamp, const std::string&
   return observation;
 }
 
+mrpt::maps::CSimplePointsMap::Ptr mapOf(const PointCloud& points) {
+  auto map = mrpt::maps::CSimplePointsMap::Create();
+  for (const auto& p : points) map->insertPointFast(p.x(), p.y(), p.z());
+  return map;
+}
+
 }  // namespace
 
 std::string poseObject(double stamp, const std::string& name, const Pose& pose) {
@@ -104,10 +110,20 @@ std::string externalPointsObject(const PointCloud& points, const std::filesystem
 std::string cloudObject(double stamp, const std::string& name, const PointCloud& points) {
   mrpt::obs::CObservationPointCloud scan;
   label(scan, stamp, name);
-  auto map = mrpt::maps::CSimplePointsMap::Create();
-  for (const auto& p : points) map->insertPointFast(p.x(), p.y(), p.z());
-  scan.pointcloud = map;
+  scan.pointcloud = mapOf(points);
   return bytesOf(scan);
+}
+
+std::string externalCloudObject(CloudFormat format, const std::string& file) {
+  mrpt::obs::CObservationPointCloud scan;
+  label(scan, 100.0, "LIDAR");
+  using Format = mrpt::obs::CObservationPointCloud::ExternalStorageFormat;
+  scan.setAsExternalStorage(file, static_cast<Format>(format));
+  return bytesOf(scan);
+}
+
+std::string mapObject(const PointCloud& points) {
+  return bytesOf(*mapOf(points));
 }
 
 std::string laserObject(double stamp, const std::vector<float>& ranges, float max_range) {
@@ -137,9 +153,14 @@ std::string imuObject(double stamp) {
   return bytesOf(imu);
 }
 
-std::string actionAndFrame(double stamp, double x) {
+std::string actionAndFrame(double stamp, double x, std::uint32_t particles) {
   mrpt::obs::CActionRobotMovement2D movement;
-  movement.computeFromOdometry(mrpt::poses::CPose2D(x, 0.0, 0.0), {});
+  mrpt::obs::CActionRobotMovement2D::TMotionModelOptions model;
+  if (particles > 0) {
+    model.modelSelection = mrpt::obs::CActionRobotMovement2D::mmThrun;
+    model.thrunModel.nParticlesCount = particles;
+  }
+  movement.computeFromOdometry(mrpt::poses::CPose2D(x, 0.0, 0.0), model);
   mrpt::obs::CActionCollection actions;
   actions.insert(movement);
   DepthSpec spec;

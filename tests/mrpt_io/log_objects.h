@@ -31,11 +31,17 @@ std::string depthObject(const DepthSpec& spec);
 std::string externalPointsObject(const PointCloud& points, const std::filesystem::path& images,
                                  const std::string& name);
 std::string cloudObject(double stamp, const std::string& label, const PointCloud& points);
+/// A cloud whose points stand in a file beside the log.
+enum class CloudFormat : std::uint8_t { map_object = 1, records = 2, text = 3 };
+std::string externalCloudObject(CloudFormat format, const std::string& file);
+/// MRPT's map of these points.
+std::string mapObject(const PointCloud& points);
 std::string laserObject(double stamp, const std::vector<float>& ranges, float max_range);
 std::string odometryObject(double stamp, double x);
 std::string imuObject(double stamp);
-/// Action with odometry increment x, then a sensory frame of one depth scan.
-std::string actionAndFrame(double stamp, double x);
+/// Action with odometry increment x, then a sensory frame of one depth scan. @param particles that the action
+/// has drawn of its motion model; 0: its model is a Gaussian
+std::string actionAndFrame(double stamp, double x, std::uint32_t particles = 0);
 std::string frameObject(const std::vector<DepthSpec>& scans);
 /// One CRawlog that holds these scans, each with a pose `groundtruth` of its number in x.
 std::string rawlogObject(const std::vector<DepthSpec>& scans);

@@ -320,6 +320,17 @@ TEST(LogReader, PoseSourceByTheContract) {
   EXPECT_NEAR(x(a + scan, file), 9.0, 1e-6);
 }
 
+// MRPT draws them as it reads: 128 GiB, if it found them, and a quarter of a day.
+TEST(LogReader, ParticlesOfActionsAreNotDrawn) {
+  LogReadOptions odometry;
+  odometry.poses = "odometry";
+  const std::string log = test::actionAndFrame(10.0, 4.0, 0xFFFFFFFF) + test::actionAndFrame(11.0, 0.5, 300);
+  const auto scans = only<DepthScan>(readBytes(log, odometry));
+  ASSERT_EQ(scans.size(), 2U);
+  EXPECT_DOUBLE_EQ(scans[0].world_T_sensor.x(), 4.0);
+  EXPECT_DOUBLE_EQ(scans[1].world_T_sensor.x(), 4.5);
+}
+
 TEST(LogReader, PosesBeyondAllMeasureAreAnErrorWithTheirPlace) {
   DepthSpec far;
   far.base_T_sensor = Pose(1e300, 0, 0, 0, 0, 0);

@@ -1,16 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "ExternalArrays.h"
 
-#include <unistd.h>
-#include <zlib.h>
-
 #include <algorithm>
 #include <cstdint>
-#include <memory>
-#include <new>
-#include <string>
 #include <vector>
 
+#include "ExternalBytes.h"
 #include "ExternalFiles.h"
 #include "ScanConverter.h"
 
@@ -18,36 +13,10 @@ namespace hoctomap {
 
 namespace {
 
-/// The bytes of a file, inflated if it is compressed.
-class Bytes {
- public:
-  explicit Bytes(const ExternalFile& file) : file_(gzdopen(::dup(file.descriptor()), "rb")) {
-    if (!file_) throw std::bad_alloc();
-  }
-  /// @return whether there were so many
-  [[nodiscard]] bool read(void* into, std::size_t bytes) {
-    return gzread(file_.get(), into, static_cast<unsigned>(bytes)) == static_cast<int>(bytes);
-  }
-  /// Whether nothing follows, and check sum and length of what was compressed are right.
-  [[nodiscard]] bool atEnd() {
-    char more = 0;
-    int error = Z_OK;
-    if (gzread(file_.get(), &more, 1) != 0) return false;
-    static_cast<void>(gzerror(file_.get(), &error));
-    return error == Z_OK;
-  }
-
- private:
-  struct Close {
-    void operator()(gzFile file) const { gzclose_r(file); }
-  };
-  std::unique_ptr<gzFile_s, Close> file_;
-};
-
 /// @return false if fewer than `count` are there. The memory grows with what is read, not with what is
 /// promised.
 template <class T>
-bool readArray(Bytes& bytes, std::uint64_t count, std::vector<T>& array) {
+bool readArray(ExternalBytes& bytes, std::uint64_t count, std::vector<T>& array) {
   constexpr std::size_t kStep = std::size_t{1} << 16;
   array.clear();
   while (array.size() < count) {
@@ -61,7 +30,7 @@ bool readArray(Bytes& bytes, std::uint64_t count, std::vector<T>& array) {
 }
 
 bool readRangeImage(const ExternalFile& file, mrpt::math::CMatrix_u16& image) {
-  Bytes bytes(file);
+  ExternalBytes bytes(file);
   std::uint32_t size[2] = {};  // rows, columns
   std::vector<std::uint16_t> pixels;
   if (!bytes.read(size, sizeof size) || !readArray(bytes, std::uint64_t{size[0]} * size[1], pixels) ||
@@ -75,7 +44,7 @@ bool readRangeImage(const ExternalFile& file, mrpt::math::CMatrix_u16& image) {
 }
 
 bool readPoints(const ExternalFile& file, mrpt::obs::CObservation3DRangeScan& scan) {
-  Bytes bytes(file);
+  ExternalBytes bytes(file);
   for (auto* coordinates : {&scan.points3D_x, &scan.points3D_y, &scan.points3D_z}) {
     std::uint32_t count = 0;
     std::vector<float> values;

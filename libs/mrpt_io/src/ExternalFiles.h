@@ -31,8 +31,8 @@ class ExternalFile {
   UniqueFd file_;  ///< none if there is no such regular file
 };
 
-/// Loads what the observation stores outside by MRPT's loader, after its names were checked. @return false if
-/// that fails
+/// Loads what a depth camera's scan stores outside as text by MRPT's loader, after its names were checked.
+/// @return false if that fails
 [[nodiscard]] bool loadExternals(const mrpt::obs::CObservation& observation,
                                  const std::filesystem::path& folder);
 

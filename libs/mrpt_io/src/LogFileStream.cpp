@@ -33,8 +33,12 @@ UniqueFd openRegular(const std::filesystem::path& file, const std::string& name)
 
 }  // namespace
 
-LogFileStream::LogFileStream(const std::filesystem::path& file, const LogReadOptions& budgets)
-    : name_(escapedText(file.string())), budgets_(budgets), file_(openRegular(file, name_)) {
+LogFileStream::LogFileStream(const std::filesystem::path& file, const LogReadOptions& budgets,
+                             ReadProgress& progress)
+    : name_(escapedText(file.string())),
+      budgets_(budgets),
+      progress_(progress),
+      file_(openRegular(file, name_)) {
   input_.resize(kBufferBytes);
   output_.resize(kBufferBytes);
   unsigned char magic[2] = {};
@@ -78,6 +82,7 @@ bool LogFileStream::atEnd() {
 bool LogFileStream::fill() {
   if (failure_) std::rethrow_exception(failure_);
   out_at_ = out_end_ = 0;
+  progress_.read = position_;
   if (compressed_) return fillCompressed();
   const bool more = refillInput();
   std::swap(input_, output_);

@@ -2,12 +2,10 @@
 #include "ObservationReader.h"
 
 #include <mrpt/maps/CSimpleMap.h>
-#include <mrpt/maps/registerAllClasses.h>
 #include <mrpt/obs/CActionCollection.h>
 #include <mrpt/obs/CActionRobotMovement2D.h>
 #include <mrpt/obs/CRawlog.h>
 #include <mrpt/obs/CSensoryFrame.h>
-#include <mrpt/obs/registerAllClasses.h>
 
 #include <new>
 #include <stdexcept>
@@ -34,12 +32,19 @@ bool isOutOfMemory(const std::exception& error) {
   return false;
 }
 
-}  // namespace
+/// Sets a flag for as long as it lives.
+class AtWork {
+ public:
+  explicit AtWork(std::atomic<bool>& flag) : flag_(flag) { flag_ = true; }
+  ~AtWork() { flag_ = false; }
+  AtWork(const AtWork&) = delete;
+  AtWork& operator=(const AtWork&) = delete;
 
-void registerLogClasses() {
-  mrpt::obs::registerAllClasses_mrpt_obs();
-  mrpt::maps::registerAllClasses_mrpt_maps();
-}
+ private:
+  std::atomic<bool>& flag_;
+};
+
+}  // namespace
 
 std::string messageOf(const std::exception& error) {
   std::string_view text = error.what();
@@ -55,7 +60,7 @@ std::string messageOf(const std::exception& error) {
 
 ObservationReader::ObservationReader(const LogReadOptions& options, std::uint32_t log, ReadProgress& progress)
     : name_(escapedText(options.logs.at(log).string())),
-      stream_(options.logs[log], options),
+      stream_(options.logs[log], options, progress),
       progress_(progress) {
   position_.log = log;
 }
@@ -88,6 +93,7 @@ bool ObservationReader::atEnd() {
 
 CSerializable::Ptr ObservationReader::readObject() {
   stream_.beginObject();
+  const AtWork at_work(progress_.in_object);
   try {
     return mrpt::serialization::archiveFrom(stream_).ReadObject();
   } catch (const std::exception& error) {

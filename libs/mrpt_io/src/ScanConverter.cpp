@@ -16,6 +16,7 @@
 #include <optional>
 
 #include "ExternalArrays.h"
+#include "ExternalCloud.h"
 #include "ExternalFiles.h"
 #include "hoctomap/geometry/Errors.h"
 
@@ -28,6 +29,9 @@ using mrpt::obs::CObservationRotatingScan;
 using mrpt::obs::CObservationVelodyneScan;
 
 namespace {
+
+constexpr const char* kMissing = "missing external file";
+constexpr const char* kDamaged = "damaged external file";
 
 template <class X, class Y, class Z>
 SensorScan cloudFrom(const X& x, const Y& y, const Z& z) {
@@ -92,31 +96,27 @@ bool load(CObservation3DRangeScan& scan, const std::vector<std::string>& names,
                                                          : readExternalArrays(scan, folder);
 }
 
-bool load(CObservationPointCloud& scan, const std::vector<std::string>&,
-          const std::filesystem::path& folder) {
-  return loadExternals(scan, folder);
-}
-
-/// The same after its names were checked. @return why it cannot be used, if it cannot
-template <class Scan>
-std::optional<Unusable> loadChecked(Scan& scan, const std::filesystem::path& folder) {
-  const std::vector<std::string> names = externalNames(scan);
-  for (const std::string& name : names) {
-    if (!ExternalFile(folder, name).exists()) return Unusable{"missing external file"};
-  }
-  if (!load(scan, names, folder)) return Unusable{"damaged external file"};
-  return std::nullopt;
+bool allExist(const std::vector<std::string>& names, const std::filesystem::path& folder) {
+  return std::all_of(names.begin(), names.end(),
+                     [&](const std::string& name) { return ExternalFile(folder, name).exists(); });
 }
 
 SensorScan convert(CObservation3DRangeScan& scan, const std::filesystem::path& folder) {
-  if (auto unusable = loadChecked(scan, folder)) return *unusable;
+  const std::vector<std::string> names = externalNames(scan);
+  if (!allExist(names, folder)) return Unusable{kMissing};
+  if (!load(scan, names, folder)) return Unusable{kDamaged};
   if (scan.hasRangeImage && scan.rangeImage.size() > 0) return depthFrom(scan);
   if (scan.hasPoints3D) return cloudFrom(scan.points3D_x, scan.points3D_y, scan.points3D_z);
   return Unusable{"neither a range image nor points"};
 }
 
-SensorScan convert(CObservationPointCloud& scan, const std::filesystem::path& folder) {
-  if (auto unusable = loadChecked(scan, folder)) return *unusable;
+SensorScan convert(const CObservationPointCloud& scan, const std::filesystem::path& folder) {
+  if (!allExist(externalNames(scan), folder)) return Unusable{kMissing};
+  if (scan.isExternallyStored()) {
+    auto points = readExternalCloud(scan, folder);
+    if (!points) return Unusable{kDamaged};
+    return *std::move(points);
+  }
   if (!scan.pointcloud) return Unusable{"neither a range image nor points"};
   const auto& map = *scan.pointcloud;
   return cloudFrom(map.getPointsBufferRef_x(), map.getPointsBufferRef_y(), map.getPointsBufferRef_z());
@@ -206,7 +206,7 @@ std::pair<std::uint32_t, std::uint32_t> imageSize(const mrpt::obs::CObservation&
 SensorScan convertScan(mrpt::obs::CObservation& observation, const std::filesystem::path& images_folder) {
   if (auto* depth = dynamic_cast<CObservation3DRangeScan*>(&observation))
     return convert(*depth, images_folder);
-  if (auto* cloud = dynamic_cast<CObservationPointCloud*>(&observation))
+  if (const auto* cloud = dynamic_cast<const CObservationPointCloud*>(&observation))
     return convert(*cloud, images_folder);
   if (auto* velodyne = dynamic_cast<CObservationVelodyneScan*>(&observation)) return convert(*velodyne);
   if (auto* laser = dynamic_cast<CObservation2DRangeScan*>(&observation)) return convert(*laser);

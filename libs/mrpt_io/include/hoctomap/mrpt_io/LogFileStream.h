@@ -11,6 +11,7 @@
 
 #include "hoctomap/io/ChildProcess.h"
 #include "hoctomap/io/LogReadOptions.h"
+#include "hoctomap/mrpt_io/ReadProgress.h"
 
 namespace hoctomap {
 
@@ -21,8 +22,9 @@ namespace hoctomap {
 /// their way up and loses their type, so the first one is also kept in failure().
 class LogFileStream {
  public:
+  /// @param progress is told of what is read; outlives the stream
   /// @throws InputError if `file` is missing, unreadable, empty, or no regular file.
-  LogFileStream(const std::filesystem::path& file, const LogReadOptions& budgets);
+  LogFileStream(const std::filesystem::path& file, const LogReadOptions& budgets, ReadProgress& progress);
   ~LogFileStream();
   LogFileStream(const LogFileStream&) = delete;
   LogFileStream& operator=(const LogFileStream&) = delete;
@@ -55,6 +57,7 @@ class LogFileStream {
 
   std::string name_;
   LogReadOptions budgets_;
+  ReadProgress& progress_;
   UniqueFd file_;
   bool compressed_ = false;
   z_stream zlib_{};
