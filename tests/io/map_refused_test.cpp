@@ -174,10 +174,27 @@ TEST_F(MapRefused, Texts) {
 
 TEST_F(MapRefused, EveryCutOfTheManifest) {
   const std::string yaml = toYaml(manifest_);
-  const auto end = yaml.find("removed:");
-  for (std::size_t size = 0; size < end; size += 37) {
+  for (std::size_t size = 0; size < yaml.size(); size += size + 100 < yaml.size() ? 37U : 1U) {
     EXPECT_THROW(static_cast<void>(parseManifest(yaml.substr(0, size), "m.yaml")), MapError) << size;
   }
+  EXPECT_THROW(static_cast<void>(parseManifest(yaml + "\n", "m.yaml")), MapError);
+}
+
+/// Also a bit of a number, of a comment, and of the hash itself.
+TEST_F(MapRefused, EveryFlippedBitOfTheManifest) {
+  const std::string yaml = toYaml(manifest_);
+  for (std::size_t at = 0; at < yaml.size(); at += at < 300 ? 1U : 23U) {
+    std::string flipped = yaml;
+    flipped[at] = static_cast<char>(flipped[at] ^ (1 << (at % 8)));
+    EXPECT_THROW(static_cast<void>(parseManifest(flipped, "m.yaml")), MapError) << at;
+  }
+}
+
+TEST_F(MapRefused, AManifestWithoutItsOwnHashIsThatOfAnotherProgram) {
+  std::string yaml = toYaml(manifest_);
+  yaml.erase(0, yaml.find('\n') + 1);
+  EXPECT_EQ(toYaml(parseManifest(yaml, "m.yaml")), toYaml(manifest_));
+  expectRefused(yaml + "sha256: \"" + std::string(64, 'a') + "\"\n", "sha256");
 }
 
 TEST_F(MapRefused, TooDeepIsALimit) {

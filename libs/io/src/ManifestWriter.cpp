@@ -3,9 +3,11 @@
 // 1.1 and 1.2 readers, with all its digits, and the same manifest must give the same bytes.
 #include <span>
 
+#include "ManifestHash.h"
 #include "NumberText.h"
 #include "PoseText.h"
 #include "hoctomap/io/Manifest.h"
+#include "hoctomap/io/Sha256.h"
 
 namespace hoctomap {
 namespace {
@@ -87,6 +89,10 @@ std::string nodesText(const char* key, const std::vector<NodeRecord>& nodes) {
 
 }  // namespace
 
+std::string ownHashLine(std::string_view rest) {
+  return "sha256: " + yamlText(sha256Hex(rest)) + "\n";
+}
+
 std::string toYaml(const Manifest& manifest) {
   std::string text = "# Hierarchy of octree maps; docs/map-format.md of hoctomap explains every key.\n";
   text += "format_version: " + std::to_string(manifest.format_version) + "\n";
@@ -117,8 +123,9 @@ std::string toYaml(const Manifest& manifest) {
             ", after_scan: " + std::to_string(manifest.motions->after_scan) +
             ", told_sha256: " + yamlText(manifest.motions->told_sha256) + "}\n";
   }
-  return text + nodesText("nodes", manifest.nodes) + nodesText("removed", manifest.removed) +
-         nodesText("waiting", manifest.waiting);
+  text += nodesText("nodes", manifest.nodes) + nodesText("removed", manifest.removed) +
+          nodesText("waiting", manifest.waiting);
+  return ownHashLine(text) + text;
 }
 
 }  // namespace hoctomap
