@@ -3,8 +3,8 @@
 import assert from "node:assert/strict";
 import test from "node:test";
 import { History } from "../../libs/report/web/src/history.js";
-import { meshChunk, probabilityClass } from "../../libs/report/web/src/mesher.js";
-import { decodeOctree, ORIGIN } from "../../libs/report/web/src/octree.js";
+import { meshTile } from "../../libs/report/web/src/mesher.js";
+import { decodeOctree, ORIGIN, probabilityClass, TILE } from "../../libs/report/web/src/octree.js";
 import { parseCsv } from "../../libs/report/web/src/csv.js";
 
 /** Numbers of a seed, in [0, 1). */
@@ -44,38 +44,78 @@ function encode(occupied, free) {
   return bytes;
 }
 
-test("an octree gives back its voxels", () => {
-  const next = random(1);
-  const key = () => [0, 1, 2].map(() => ORIGIN + Math.floor(160 * next() - 80)).join(",");
-  const occupied = new Map(Array.from({ length: 60 }, () => [key(), 128 + Math.floor(127 * next())]));
-  const free = new Set(Array.from({ length: 40 }, key).filter((k) => !occupied.has(k)));
-  const decoded = decodeOctree(encode(occupied, free));
-  const found = new Map();
-  for (const { x, y, z, voxels } of decoded.chunks) {
-    for (const v of voxels) found.set(`${x + (v & 63)},${y + ((v >> 6) & 63)},${z + ((v >> 12) & 63)}`, v >>> 18);
+/** Cells of tiles as {corner in voxels: class}; those of the finest level, and of every level with its name. */
+function cellsOf(root) {
+  const levels = new Map();
+  const walk = (tile) => {
+    if (!levels.has(tile.level)) levels.set(tile.level, new Map());
+    for (const cell of tile.cells) {
+      const at = [tile.x, tile.y, tile.z].map((k, i) => k + (((cell >> (6 * i)) & 63) << tile.level));
+      assert.ok(!levels.get(tile.level).has(at.join(",")), "each cell once");
+      levels.get(tile.level).set(at.join(","), cell >>> 18);
+    }
+    for (const child of tile.children) {
+      assert.equal(child.level, tile.level - 1);
+      for (const k of ["x", "y", "z"]) assert.ok(child[k] === tile[k] || child[k] === tile[k] + (TILE << child.level));
+      walk(child);
+    }
+  };
+  if (root) walk(root);
+  return levels;
+}
+
+test("an octree gives back its voxels, at every level those that are occupied in part", () => {
+  for (const [seed, extent, count] of [[1, 160, 60], [2, 3000, 200], [3, 60000, 50], [4, 16, 400]]) {
+    const next = random(seed);
+    const key = () => [0, 1, 2].map(() => ORIGIN + Math.floor(extent * (next() - 0.5))).join(",");
+    const occupied = new Map(Array.from({ length: count }, () => [key(), 128 + Math.floor(127 * next())]));
+    const free = new Set(Array.from({ length: 40 }, key).filter((k) => !occupied.has(k)));
+    const decoded = decodeOctree(encode(occupied, free));
+    const levels = cellsOf(decoded.root);
+    assert.ok(levels.size > 1);
+    for (const [level, found] of levels) {
+      const expected = new Map();
+      for (const [text, probability] of occupied) {
+        const cell = text.split(",").map((k) => (k >> level) << level).join(",");
+        expected.set(cell, Math.max(expected.get(cell) ?? 0, probabilityClass(probability)));
+      }
+      assert.deepEqual(new Map([...found].sort()), new Map([...expected].sort()), `seed ${seed}, level ${level}`);
+    }
+    const freeFound = [];
+    for (let i = 0; i < decoded.free.length; i += 4) freeFound.push(decoded.free.slice(i, i + 3).join(","));
+    assert.deepEqual(freeFound.sort(), [...free].sort());
   }
-  assert.deepEqual(new Map([...found].sort()), new Map([...occupied].sort()));
-  const freeFound = [];
-  for (let i = 0; i < decoded.free.length; i += 4) freeFound.push(decoded.free.slice(i, i + 3).join(","));
-  assert.deepEqual(freeFound.sort(), [...free].sort());
+});
+
+test("coarse leaves are the voxels they cover", () => {
+  // The root's last child is inner, and so on down to one occupied leaf of 128 voxels a side beside an inner node of nothing.
+  const bytes = new Uint8Array(4 + 2 * 9 + 1);
+  bytes[0] = 9;
+  for (let i = 0; i < 8; ++i) bytes.set([0, 0xc0], 4 + 2 * i);
+  bytes.set([2, 0], 4 + 2 * 8);
+  bytes[22] = 255;
+  const tiles = (tile) => (tile.level === 0 ? [tile] : tile.children.flatMap(tiles));
+  const finest = tiles(decodeOctree(bytes).root);
+  assert.equal(finest.length, 8);
+  for (const tile of finest) assert.equal(new Set(tile.cells.map((cell) => cell & 0x3ffff)).size, 64 ** 3);
 });
 
 test("an empty octree has nothing", () => {
-  const { chunks, free } = decodeOctree(new Uint8Array(4));
-  assert.equal(chunks.length + free.length, 0);
+  const { root, free } = decodeOctree(new Uint8Array(4));
+  assert.equal(root, null);
+  assert.equal(free.length, 0);
 });
 
 test("the faces of a mesh cover what is exposed once, by direction and class", () => {
-  for (const [seed, level, fill] of [[2, 0, 3000], [3, 1, 3000], [4, 3, 500], [5, 5, 20]]) {
+  for (const [seed, n, fill] of [[2, 64, 3000], [3, 32, 3000], [4, 8, 300], [5, 2, 6]]) {
     const next = random(seed);
-    const n = 64 >> level;
     const cells = new Map();
-    const voxels = Uint32Array.from({ length: fill }, () => {
-      const p = [0, 1, 2].map(() => Math.floor(64 * next() ** 2));
-      const probability = 128 + Math.floor(128 * next());
-      const cell = p.map((k) => k >> level).join(",");
-      cells.set(cell, Math.max(cells.get(cell) ?? 0, probabilityClass(probability)));
-      return p[0] | (p[1] << 6) | (p[2] << 12) | (probability << 18);
+    for (let i = 0; i < fill; ++i) {
+      cells.set([0, 1, 2].map(() => Math.floor(n * next() ** 2)).join(","), Math.floor(8 * next()));
+    }
+    const packed = Uint32Array.from([...cells], ([cell, kind]) => {
+      const [x, y, z] = cell.split(",").map(Number);
+      return x | (y << 6) | (z << 12) | (kind << 18);
     });
     const expected = new Set();
     for (const [cell, kind] of cells) {
@@ -86,7 +126,11 @@ test("the faces of a mesh cover what is exposed once, by direction and class", (
         if (!cells.has(beside.join(","))) expected.add(`${cell} ${direction} ${kind}`);
       }
     }
-    const mesh = meshChunk(voxels, level);
+    const { vertices: mesh, runs } = meshTile({ cells: packed });
+    assert.equal(runs.at(-1).end, mesh.length / 16, "no walls");
+    for (const { direction, begin, end } of runs) {
+      for (let i = begin; i < end; ++i) assert.equal(mesh[16 * i + 3] & 7, direction);
+    }
     const covered = [];
     for (let i = 0; i < mesh.length; i += 16) {
       const corners = [0, 4, 8, 12].map((k) => [...mesh.subarray(i + k, i + k + 3)]);
@@ -118,13 +162,17 @@ test("the faces of a mesh cover what is exposed once, by direction and class", (
   }
 });
 
-test("there is no wall between chunks", () => {
-  const plane = (x) => Uint32Array.from({ length: 64 * 64 }, (_, i) => x | ((i & 63) << 6) | ((i >> 6) << 12) | (255 << 18));
-  const directions = (mesh) => [...new Set([...mesh].filter((_, k) => k % 16 === 3).map((code) => code & 7))].sort();
-  assert.deepEqual(directions(meshChunk(plane(63), 0)), [0, 1, 2, 3, 4, 5]);
-  assert.deepEqual(directions(meshChunk(plane(63), 0, [undefined, plane(0)])), [0, 2, 3, 4, 5]);
-  assert.deepEqual(directions(meshChunk(plane(0), 2, [plane(63)])), [1, 2, 3, 4, 5]);
-  assert.deepEqual(directions(meshChunk(plane(63), 0, [undefined, plane(1)])), [0, 1, 2, 3, 4, 5], "a gap is a gap");
+test("what lies against a neighbour is a wall, which can be left out", () => {
+  const plane = (x) => ({ cells: Uint32Array.from({ length: 64 * 64 }, (_, i) => x | ((i & 63) << 6) | ((i >> 6) << 12)) });
+  const directions = (tile, neighbours) => {
+    const { vertices, runs } = meshTile(tile, neighbours);
+    const of = (from, to) => [...new Set([...vertices.subarray(16 * from, 16 * to)].filter((_, k) => k % 16 === 3).map((code) => code & 7))].sort();
+    return [of(0, runs.at(-1).end), of(runs.at(-1).end, vertices.length / 16)];
+  };
+  assert.deepEqual(directions(plane(63)), [[0, 1, 2, 3, 4, 5], []]);
+  assert.deepEqual(directions(plane(63), [undefined, plane(0)]), [[0, 2, 3, 4, 5], [1]]);
+  assert.deepEqual(directions(plane(0), [plane(63)]), [[1, 2, 3, 4, 5], [0]]);
+  assert.deepEqual(directions(plane(63), [undefined, plane(1)]), [[0, 1, 2, 3, 4, 5], []], "a gap is a gap");
 });
 
 const IDENTITY = [1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1];

@@ -18,6 +18,9 @@ export class Eye {
     this.controls.zoomToCursor = true;
     this.controls.maxPolarAngle = Math.PI - 0.05;
     this.controls.addEventListener("change", changed);
+    this.held = false; // by mouse or finger
+    this.controls.addEventListener("start", () => (this.held = true));
+    this.controls.addEventListener("end", () => (this.held = false));
     this.changed = changed;
     element.addEventListener("keydown", (event) => this.#key(event));
   }

@@ -73,7 +73,6 @@ export async function comparePage(page) {
   ]);
   const facts = kinds.map((kind) => `${diff.counts[kind]} ${kind}`).join(", ") || "no changes";
   document.body.append(h("div.page.compare", {}, header(page.name, facts, () => state.set({ theme: true })), stage.element, h("aside.side", {}, list, body)));
-  for (const mapScene of mapScenes) await mapScene.load();
   stage.start();
   stage.viewer.onPick = ({ id, mapScene }) => state.set({ selected: changeOf[mapScenes.indexOf(mapScene)].get(id) ?? null });
   document.addEventListener("keydown", (event) => {
@@ -83,5 +82,5 @@ export async function comparePage(page) {
   });
   state.set({ first: true });
   stage.look("fit");
-  document.documentElement.dataset.ready = "true";
+  await stage.load();
 }

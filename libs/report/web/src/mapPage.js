@@ -67,11 +67,10 @@ export async function mapPage(page) {
   document.body.append(h("div.page", {},
     header(page.name, factsOf(map), () => state.set({ theme: true })),
     stage.element, timeline.element, h("aside.side", {}, list, body)));
-  await mapScene.load();
   stage.start();
   stage.viewer.onPick = ({ id }) => state.set({ selected: id === 0 && state.selected !== null ? null : id });
   keys(state, stage, timeline, mapScene);
   state.set({ first: true });
   stage.look("fit");
-  document.documentElement.dataset.ready = "true";
+  await stage.load();
 }

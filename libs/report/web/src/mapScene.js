@@ -64,20 +64,26 @@ export class MapScene {
     this.sensors = new Group();
     this.root.add(this.sensors);
     this.colourOf = (node) => labelColour(node.label);
+    for (const node of this.history.nodes) this.#addNode(node);
+    this.#addSensors();
   }
 
-  async load(progress) {
-    for (const node of this.history.nodes) {
-      const model = new NodeModel(node, await readBlock(this.map.prefix + node.id));
-      this.models.set(node.id, model);
-      const box = boxLines(node);
-      box.visible = false;
-      model.group.add(box);
-      this.boxes.set(node.id, box);
-      this.root.add(model.group);
-      progress?.();
+  #addNode(node) {
+    const model = new NodeModel(node);
+    this.models.set(node.id, model);
+    const box = boxLines(node);
+    box.visible = false;
+    model.group.add(box);
+    this.boxes.set(node.id, box);
+    this.root.add(model.group);
+  }
+
+  /** Reads the voxels, node by node. @param loaded called after each */
+  async load(loaded) {
+    for (const [id, model] of this.models) {
+      model.load(await readBlock(this.map.prefix + id));
+      loaded();
     }
-    this.#addSensors();
   }
 
   #addSensors() {

@@ -1,11 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The voxels of one node, as meshes of chunks in several levels of detail.
-import { BufferAttribute, BufferGeometry, Group, Matrix4, Mesh, Sphere, Vector3 } from "three";
-import { CHUNK, decodeOctree, ORIGIN } from "./octree.js";
-import { meshChunk, meshFree } from "./mesher.js";
-import { voxelMaterial } from "./material.js";
-
-const LEVELS = 6; // cells of 1, 2, ... 32 voxels
+// The voxels of one node, as meshes of tiles in several levels of detail.
+import { Box3, BufferAttribute, BufferGeometry, Group, Mesh, Sphere, Vector3 } from "three";
+import { decodeOctree, ORIGIN, TILE } from "./octree.js";
+import { meshFree, meshTile } from "./mesher.js";
+import { EDGES_FROM, voxelMaterial } from "./material.js";
 
 const indices = new Map();
 /** Two triangles a rectangle, shared by all meshes of like size. */
@@ -31,24 +29,50 @@ function meshOf(vertices, material, cells) {
   return mesh;
 }
 
-/** The coarsest level whose cells are at most `pixels` large on the screen. */
-const levelOf = (chunk, pixels) => Math.max(0, Math.min(LEVELS - 1, Math.floor(Math.log2(pixels / chunk.voxelPixels))));
-
 export class NodeModel {
-  /** @param node as in the page's data  @param bytes its octree */
-  constructor(node, bytes) {
+  /** @param node as in the page's data */
+  constructor(node) {
     this.node = node;
     this.group = new Group();
     this.group.matrixAutoUpdate = false;
     this.material = voxelMaterial();
-    const { chunks, free } = decodeOctree(bytes);
+    this.coarseMaterial = this.material.clone(); // the same, but cells of several voxels have no edges
+    this.coarseMaterial.uniforms = { ...this.material.uniforms, edges: { value: false } };
+    this.root = null;
+    this.free = [];
+    this.shown = [];
+  }
+
+  /** @param bytes the node's octree */
+  load(bytes) {
+    const { root, free } = decodeOctree(bytes);
     this.free = free;
-    this.chunks = chunks.map((chunk) => ({
-      ...chunk,
-      meshes: new Array(LEVELS),
-      shown: null,
-      centre: new Vector3(chunk.x, chunk.y, chunk.z).addScalar(CHUNK / 2 - ORIGIN).multiplyScalar(node.resolution),
-    }));
+    this.places = new Map();
+    if (root) {
+      this.#prepare(root);
+      this.build(root);
+    }
+    this.root = root;
+  }
+
+  #place = (level, x, y, z) => `${level} ${x} ${y} ${z}`;
+
+  #prepare(tile) {
+    tile.edge = this.node.resolution * 2 ** tile.level;
+    tile.corner = new Vector3(tile.x, tile.y, tile.z).subScalar(ORIGIN).multiplyScalar(this.node.resolution);
+    tile.box = new Box3(tile.corner, tile.corner.clone().addScalar(TILE * tile.edge));
+    this.places.set(this.#place(tile.level, tile.x, tile.y, tile.z), tile);
+    for (const child of tile.children) this.#prepare(child);
+  }
+
+  /** Tiles of the same level beside one, by direction (mesher.js). */
+  #neighbours(tile) {
+    tile.neighbours ??= [0, 1, 2, 3, 4, 5].map((direction) => {
+      const place = [tile.x, tile.y, tile.z];
+      place[direction >> 1] += (direction & 1 ? TILE : -TILE) << tile.level;
+      return this.places.get(this.#place(tile.level, ...place));
+    });
+    return tile.neighbours;
   }
 
   setPose(matrix) {
@@ -56,66 +80,41 @@ export class NodeModel {
     this.group.matrixWorldNeedsUpdate = true;
   }
 
-  /** Finds how large a voxel of each chunk is on the screen, in pixels, and which chunks are in the picture. */
-  measure(camera, frustum, pixelsPerRadian) {
-    const toNode = new Matrix4().copy(this.group.matrixWorld).invert();
-    const eye = camera.position.clone().applyMatrix4(toNode);
-    const sphere = new Sphere();
-    const radius = (CHUNK / 2) * this.node.resolution;
-    for (const chunk of this.chunks) {
-      const distance = Math.max(chunk.centre.distanceTo(eye) - radius, 0.5 * this.node.resolution);
-      chunk.voxelPixels = (this.node.resolution * pixelsPerRadian) / distance;
-      sphere.set(chunk.centre, radius * Math.sqrt(3)).applyMatrix4(this.group.matrixWorld);
-      chunk.inPicture = frustum.intersectsSphere(sphere);
+  /** Makes the mesh of a tile. */
+  build(tile) {
+    const { vertices, runs } = meshTile(tile, this.#neighbours(tile));
+    tile.runs = runs;
+    tile.all = vertices.length / 16;
+    tile.mesh = meshOf(vertices, tile.level === 0 ? this.material : this.coarseMaterial, TILE);
+    tile.mesh.matrix.makeScale(tile.edge, tile.edge, tile.edge).setPosition(tile.corner);
+    tile.mesh.visible = false;
+    this.group.add(tile.mesh);
+  }
+
+  /** Range of the rectangles of a tile that may be seen from a place (both in the node's frame). */
+  inSight(tile, eye) {
+    const range = { begin: 0, end: 0 };
+    for (const { direction, begin, end } of tile.runs) {
+      const axis = "xyz"[direction >> 1];
+      const faces = direction & 1 ? eye[axis] > tile.box.min[axis] : eye[axis] < tile.box.max[axis];
+      if (!faces || begin === end) continue;
+      if (range.end === 0) range.begin = begin;
+      range.end = end;
     }
+    return range;
   }
 
-  /** About how many triangles the picture has if cells are at most `pixels` large. */
-  triangles(pixels) {
-    let sum = 0;
-    for (const chunk of this.chunks) {
-      if (chunk.inPicture) sum += (3 * chunk.voxels.length) / 4 ** levelOf(chunk, pixels);
+  /** Shows these tiles and no others. @param entries {tile, range, pixels}[]: what is in sight, and the size of a cell on the screen */
+  show(entries) {
+    this.material.uniforms.edges.value = entries.some(({ pixels }) => pixels > EDGES_FROM);
+    for (const tile of this.shown) tile.mesh.visible = false;
+    this.shown = entries.map(({ tile }) => tile);
+    for (const tile of this.shown) tile.mesh.visible = true;
+    for (const { tile, range } of entries) {
+      const hasWalls = tile.all > tile.runs.at(-1).end;
+      const alone = hasWalls && tile.neighbours.some((other) => other && !other.mesh?.visible);
+      tile.mesh.geometry.setDrawRange(6 * range.begin, 6 * ((alone ? tile.all : range.end) - range.begin));
     }
-    return sum;
-  }
-
-  /**
-   * Shows every chunk as finely as there is a mesh for it, and says which meshes are wanted.
-   * @param {{chunk, level, model}[]} wanted is added to
-   */
-  update(pixels, pixelsPerRadian, wanted) {
-    this.material.uniforms.pixel.value = 1 / pixelsPerRadian;
-    for (const chunk of this.chunks) {
-      const level = levelOf(chunk, pixels);
-      if (!chunk.meshes[level] && chunk.inPicture) wanted.push({ model: this, chunk, level });
-      let best = chunk.meshes[level];
-      for (let i = level + 1; !best && i < LEVELS; ++i) best = chunk.meshes[i];
-      for (let i = level - 1; !best && i >= 0; --i) best = chunk.meshes[i];
-      if (best === chunk.shown) continue;
-      if (chunk.shown) chunk.shown.visible = false;
-      if (best) best.visible = true;
-      chunk.shown = best ?? null;
-    }
-  }
-
-  /** Voxels of the chunks beside one, by direction (mesher.js). */
-  #neighbours(chunk) {
-    this.byPlace ??= new Map(this.chunks.map((each) => [`${each.x},${each.y},${each.z}`, each.voxels]));
-    return [0, 1, 2, 3, 4, 5].map((direction) => {
-      const place = [chunk.x, chunk.y, chunk.z];
-      place[direction >> 1] += direction & 1 ? CHUNK : -CHUNK;
-      return this.byPlace.get(place.join(","));
-    });
-  }
-
-  build(chunk, level) {
-    const cell = this.node.resolution * 2 ** level;
-    const mesh = meshOf(meshChunk(chunk.voxels, level, this.#neighbours(chunk)), this.material, CHUNK >> level);
-    const corner = new Vector3(chunk.x, chunk.y, chunk.z).subScalar(ORIGIN).multiplyScalar(this.node.resolution);
-    mesh.matrix.makeScale(cell, cell, cell).setPosition(corner);
-    mesh.visible = false;
-    chunk.meshes[level] = mesh;
-    this.group.add(mesh);
   }
 
   /** The free space as a translucent shape, made when it is first wanted; null if there is none. */
@@ -131,9 +130,10 @@ export class NodeModel {
     }
     const extent = Math.max(...high.map((h, k) => h - low[k]));
     let edge = 1;
-    while (extent / edge > 96) edge *= 2;
+    while (extent / edge > 98) edge *= 2; // as fine as it is kept (VoxelBytes.h)
     const origin = low.map((l) => Math.floor(l / edge) * edge);
     this.freeMaterial = voxelMaterial({ transparent: true });
+    this.freeMaterial.uniforms.edges.value = true;
     this.freeMesh = meshOf(meshFree(this.free, origin, edge), this.freeMaterial, 128);
     const cell = edge * this.node.resolution;
     const corner = new Vector3(...origin).subScalar(ORIGIN).multiplyScalar(this.node.resolution);

@@ -33,14 +33,25 @@ export class Stage {
       h("div.tools", { role: "toolbar", "aria-label": "View" }, this.select, ...this.toggles, h("span.spacer"), ...views), this.legend);
   }
 
-  /** After the element is in the page and the maps are loaded. */
+  /** After the element is in the page. */
   start() {
     this.viewer = new Viewer(this.canvas, this.mapScenes);
-    this.viewer.afterDraw = ({ settled }) => {
-      this.#placeNames();
-      if (settled) document.documentElement.dataset.settled = String(Number(document.documentElement.dataset.settled ?? 0) + 1);
+    this.viewer.afterDraw = () => this.#placeNames();
+    // For tests: how often the picture has come to rest; nothing while it changes.
+    let rests = 0;
+    this.viewer.onSettled = (settled) => {
+      if (settled) document.documentElement.dataset.settled = String(++rests);
+      else delete document.documentElement.dataset.settled;
     };
     this.state.listen(() => this.show());
+  }
+
+  /** Reads the voxels; what is there is shown. */
+  async load() {
+    for (const mapScene of this.mapScenes) await mapScene.load(() => this.viewer.invalidate());
+    this.viewer.loading = false;
+    document.documentElement.dataset.ready = "true";
+    this.show();
   }
 
   show() {
@@ -51,7 +62,7 @@ export class Stage {
     this.select.value = this.state.colour;
     this.legend.replaceChildren(...this.#legendEntries());
     this.#nameNodes();
-    this.viewer.invalidate();
+    this.viewer.changed();
   }
 
   #legendEntries() {

@@ -1,12 +1,18 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Draws one map, or two side by side from the same eye; draws only when something has changed.
-import { Frustum, Matrix4, Vector3, WebGLRenderer, WebGLRenderTarget } from "three";
+import { Vector3, WebGLRenderer, WebGLRenderTarget } from "three";
 import { Eye } from "./camera.js";
+import { showTiles } from "./detail.js";
 import { HELPERS } from "./mapScene.js";
 
-const BUILD_MS = [12, 250]; // of meshing between two pictures: while it moves, and at most at rest
-// Triangles of a picture, at rest and while it moves: with a graphics card, and without.
-const TRIANGLES = { card: [8e6, 4e6], software: [6e5, 2.5e5] };
+const BUILD_MS = [8, 250]; // of meshing between two pictures: while it moves, and at most at rest
+// Size of cells on the screen (pixels) and rectangles of a picture at rest and, at most, while it moves.
+const DETAIL = {
+  card: { rest: { finest: 1.1, most: 3e6 }, moving: { finest: 1.5, most: 1.5e6 } },
+  software: { rest: { finest: 1.6, most: 1e6 }, moving: { finest: 2, most: 5e4 } },
+};
+const LEAST_MOVING = 1.2e4; // rectangles, however slow it is
+const SMOOTH_MS = [24, 40]; // between pictures while it moves: more detail below, less above
 
 /** Whether the browser draws without a graphics card. */
 function drawsInSoftware() {
@@ -22,16 +28,20 @@ export class Viewer {
     this.canvas = canvas;
     this.mapScenes = mapScenes;
     this.software = drawsInSoftware();
+    this.detail = DETAIL[this.software ? "software" : "card"];
+    this.mostMoving = this.detail.moving.most;
     this.renderer = new WebGLRenderer({ canvas, antialias: !this.software, powerPreference: "high-performance" });
     this.renderer.autoClear = false;
-    this.renderer.setPixelRatio(this.software ? 1 : Math.min(2, window.devicePixelRatio));
+    this.#setSharpness(false);
     this.eye = new Eye(canvas, () => this.moved());
     this.eye.camera.layers.enable(HELPERS);
     this.pickTarget = new WebGLRenderTarget(1, 1);
     this.background = "#ffffff";
     this.lastMove = -Infinity;
+    this.loading = true;
     this.lastDraw = 0;
     this.afterDraw = () => {};
+    this.onSettled = () => {};
     this.onPick = () => {};
     new ResizeObserver(() => this.resize()).observe(canvas.parentElement);
     this.#listenForClicks();
@@ -43,7 +53,14 @@ export class Viewer {
     this.invalidate();
   }
 
+  /** Something else is to be seen: coarsely at first, if a whole picture takes its time. */
+  changed() {
+    if (this.isHeavy) this.moved();
+    else this.invalidate();
+  }
+
   invalidate() {
+    this.onSettled(false);
     if (this.pending) return;
     this.pending = requestAnimationFrame(() => {
       this.pending = 0;
@@ -77,16 +94,20 @@ export class Viewer {
     const start = performance.now();
     const { renderer } = this;
     const { camera } = this.eye;
-    const moving = start - this.lastMove < 250;
+    const moving = this.loading || start - this.lastMove < this.#patience();
+    if (moving && this.moving) this.#adapt(start - this.lastDraw);
+    this.#setSharpness(moving);
     const perRadian = (this.views[0].height * renderer.getPixelRatio()) / (2 * Math.tan((camera.fov * Math.PI) / 360));
-    const wanted = [];
+    camera.updateMatrixWorld();
+    for (const { mapScene } of this.views) mapScene.scene.updateMatrixWorld();
+    const models = this.views.flatMap((view) => this.#shownModels(view));
+    const { wanted, rectangles } = showTiles(models, camera, perRadian, moving ? { ...this.detail.moving, most: this.mostMoving } : this.detail.rest);
     renderer.setScissorTest(false);
     renderer.setClearColor(this.background);
     renderer.clear();
     const height = this.canvas.clientHeight;
-    const pixels = this.#pixelsOfCells(perRadian, moving);
+    for (const model of models) model.material.uniforms.pixel.value = 1 / perRadian;
     for (const view of this.views) {
-      for (const model of this.#shownModels(view)) model.update(pixels, perRadian, wanted);
       const rectangle = [view.x, height - view.y - view.height, view.width, view.height];
       renderer.setViewport(...rectangle);
       renderer.setScissor(...rectangle);
@@ -96,42 +117,46 @@ export class Viewer {
     // At rest, as long as a picture takes: where drawing is slow, few pictures are drawn until all is there.
     const built = this.#build(wanted, moving ? BUILD_MS[0] : Math.max(BUILD_MS[0], Math.min(BUILD_MS[1], start - this.lastDraw)));
     this.lastDraw = start;
-    this.afterDraw({ settled: wanted.length === 0 && !moving });
+    this.moving = moving;
+    if (!moving) this.isHeavy = rectangles > this.detail.moving.most;
+    this.afterDraw();
+    if (wanted.length === 0 && !moving) this.onSettled(true);
+    clearTimeout(this.rest);
     if (built) this.invalidate();
-    else if (moving) setTimeout(() => this.invalidate(), 260);
+    else if (moving) this.rest = setTimeout(() => this.invalidate(), this.#patience() + 10);
+  }
+
+  /** How long after a motion (ms) it counts as going on: longer with the mouse held, and where pictures take long. */
+  #patience() {
+    return (this.eye.held ? 800 : 250) + 2 * (this.interval ?? 0);
+  }
+
+  /** Fewer rectangles where pictures are slow in coming, more where they are not. */
+  #adapt(milliseconds) {
+    const { most } = this.detail.moving;
+    this.interval = Math.min(milliseconds, 1000);
+    if (milliseconds > SMOOTH_MS[1]) this.mostMoving = Math.max(LEAST_MOVING, 0.85 * this.mostMoving);
+    if (milliseconds < SMOOTH_MS[0]) this.mostMoving = Math.min(most, 1.1 * this.mostMoving);
+  }
+
+  /** Without a graphics card every pixel costs: fewer while the picture moves. */
+  #setSharpness(moving) {
+    const ratio = this.software ? (moving ? 0.6 : 1) : Math.min(2, window.devicePixelRatio);
+    if (ratio !== this.renderer.getPixelRatio()) this.renderer.setPixelRatio(ratio);
   }
 
   #shownModels(view) {
     return [...view.mapScene.models.values()].filter((model) => model.group.visible);
   }
 
-  /** How large cells may be on the screen, so that the picture does not have too many triangles. */
-  #pixelsOfCells(perRadian, moving) {
-    const { camera } = this.eye;
-    camera.updateMatrixWorld();
-    const frustum = new Frustum().setFromProjectionMatrix(new Matrix4().multiplyMatrices(camera.projectionMatrix, camera.matrixWorldInverse));
-    const models = this.views.flatMap((view) => {
-      view.mapScene.scene.updateMatrixWorld();
-      return this.#shownModels(view);
-    });
-    for (const model of models) model.measure(camera, frustum, perRadian);
-    const most = TRIANGLES[this.software ? "software" : "card"][moving ? 1 : 0];
-    let pixels = this.software ? 1.6 : 1.1;
-    while (pixels < 32 && models.reduce((sum, model) => sum + model.triangles(pixels), 0) > most) pixels *= 1.2;
-    return pixels;
-  }
-
-  /** Makes meshes for some milliseconds: those of chunks that show nothing first, then the nearest. */
+  /** Makes meshes for some milliseconds. */
   #build(wanted, milliseconds) {
-    if (wanted.length === 0) return false;
     const end = performance.now() + milliseconds;
-    wanted.sort((a, b) => (a.chunk.shown ? 1 : 0) - (b.chunk.shown ? 1 : 0) || b.level - a.level);
-    for (const { model, chunk, level } of wanted) {
-      // Something coarse at once; the rest when its turn comes.
-      model.build(chunk, chunk.shown ? level : Math.max(level, 2));
+    for (const { model, tile } of wanted) {
+      model.build(tile);
       if (performance.now() > end) break;
     }
-    return true;
+    return wanted.length > 0;
   }
 
   /** The view under a place of the canvas (CSS pixels). */
