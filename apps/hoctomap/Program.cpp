@@ -4,6 +4,8 @@
 #include <exception>
 #include <iostream>
 #include <new>
+#include <string>
+#include <vector>
 
 #include "Terminal.h"
 #include "hoctomap/geometry/Errors.h"
@@ -33,6 +35,19 @@ std::string escapedLines(const std::string& text) {
   return result;
 }
 
+/// What is wrong with a command line, and where its help is.
+std::string usageError(const CLI::App& app, const CLI::ParseError& error, int argc, char** argv) {
+  const std::string first = argc > 1 ? argv[1] : "";
+  if (first.empty()) return "which command? hoctomap --help lists them";
+  const auto is_first = [&first](const CLI::App* command) { return command->check_name(first); };
+  if (!first.empty() && !first.starts_with('-') && app.get_subcommands(is_first).empty()) {
+    return "there is no command '" + escapedText(first) + "'; hoctomap --help lists them";
+  }
+  const std::vector<CLI::App*> given = app.get_subcommands();
+  const std::string command = given.empty() ? "" : " " + given.front()->get_name();
+  return escapedText(error.what()) + " (see hoctomap" + command + " --help)";
+}
+
 }  // namespace
 
 int runProgram(CLI::App& app, const Action& action, int argc, char** argv) {
@@ -42,7 +57,7 @@ int runProgram(CLI::App& app, const Action& action, int argc, char** argv) {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& e) {
     if (e.get_exit_code() == 0) return app.exit(e);  // --help, --version
-    return fail(escapedText(e.what()) + " (see hoctomap --help)", 2);
+    return fail(usageError(app, e, argc, argv), 2);
   }
   try {
     return action();

@@ -23,13 +23,17 @@ struct ReportOptions {
   bool compare = false;
   bool experiments = false;
   AtScan at_scan;
+  AtScan at_scan_a;
+  AtScan at_scan_b;
 };
 
 /// The differences as `hoctomap diff A B --json` prints them.
 std::string differences(const ReportOptions& options) {
   const Pose a_T_b = options.transform.empty() ? Pose() : parseTransform(options.transform);
-  const StoredMap a = readMap(options.folders[0]);
-  const StoredMap b = readMap(options.folders[1]);
+  const StoredMap a = readMap(options.folders[0], {.at_scan = options.at_scan_a});
+  const StoredMap b = readMap(options.folders[1], {.at_scan = options.at_scan_b});
+  noteOlderState(options.folders[0], a.manifest, options.at_scan_a);
+  noteOlderState(options.folders[1], b.manifest, options.at_scan_b);
   const auto changes = diff(a.hierarchy, b.hierarchy, DiffConfig{}, toIsometry(a_T_b));
   return diffJson({options.folders[0], a.manifest}, {options.folders[1], b.manifest}, a_T_b, changes);
 }
@@ -38,7 +42,8 @@ std::string page(const ReportOptions& options) {
   if (options.experiments) return experimentsReport({options.folders.begin(), options.folders.end()});
   if (options.compare) {
     if (options.folders.size() != 2) throw ConfigError("--compare wants two map directories");
-    return comparisonReport(options.folders[0], options.folders[1], differences(options));
+    return comparisonReport({options.folders[0], options.at_scan_a}, {options.folders[1], options.at_scan_b},
+                            differences(options));
   }
   if (options.folders.size() != 1) {
     throw ConfigError("a report is of one map; --compare shows two, --experiments folders of experiments");
@@ -52,7 +57,10 @@ std::string page(const ReportOptions& options) {
 int report(const ReportOptions& options) {
   if (!options.transform.empty() && !options.compare) throw ConfigError("--transform goes with --compare");
   if (options.at_scan && (options.compare || options.experiments)) {
-    throw ConfigError("--at-scan is for the report of one map");
+    throw ConfigError("--at-scan is for the report of one map; --compare has --at-scan-a and --at-scan-b");
+  }
+  if ((options.at_scan_a || options.at_scan_b) && !options.compare) {
+    throw ConfigError("--at-scan-a and --at-scan-b go with --compare");
   }
   const std::string html = page(options);
   replaceFile(options.output, html);
@@ -69,6 +77,7 @@ void addReportCommand(CLI::App& app, Action& action) {
       app, "report",
       "Make a page for a browser that shows a map in 3D, its tree and what happened; works offline",
       {"hoctomap report map -o map.html", "hoctomap report --compare before after -o change.html",
+       "hoctomap report --compare map map --at-scan-a 3 -o since.html",
        "hoctomap report --experiments out/vi-a out/vi-b -o experiments.html"});
   command
       ->add_option("folders", options->folders,
@@ -86,6 +95,8 @@ void addReportCommand(CLI::App& app, Action& action) {
                  "tables and figures that hoctomap-experiments wrote, as plots")
       ->excludes(compare);
   addAtScan(*command, options->at_scan);
+  addAtScan(*command, options->at_scan_a, "--at-scan-a", "with --compare: A as it was after scan K");
+  addAtScan(*command, options->at_scan_b, "--at-scan-b", "with --compare: B as it was after scan K");
   command->callback([options, &action] { action = [options] { return report(*options); }; });
 }
 

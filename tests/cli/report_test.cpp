@@ -124,6 +124,15 @@ TEST_F(ReportInChromium, ShowsAComparison) {
   tryOut("opens.mjs", {file("compare.html"), ".stage", ".change"});
 }
 
+/// Of one map, which the report of an earlier state of each side shows as it was then.
+TEST_F(Report, ComparesTwoStatesOfAMap) {
+  test::build(file("a.rawlog"), file("states"), {"--snapshot-every", "2"});
+  make({"--compare", file("states"), file("states"), "--at-scan-a", "1", "-o", file("since.html")});
+  make({"--compare", file("states"), file("states"), "-o", file("same.html")});
+  EXPECT_NE(test::readFile(file("since.html")), test::readFile(file("same.html")));
+  EXPECT_EQ(test::hoctomap({"report", map(), "--at-scan-a", "1", "-o", file("x.html")}).exit_code, 2);
+}
+
 TEST_F(Report, ExperimentsInChromium) {
   std::filesystem::create_directory(file("vi-a"));
   test::writeFile(file("vi-a/vi_a.csv"),

@@ -24,16 +24,15 @@ std::string mapReport(const std::filesystem::path& directory, std::optional<std:
   return std::move(page).html();
 }
 
-std::string comparisonReport(const std::filesystem::path& a, const std::filesystem::path& b,
-                             const std::string& diff_json) {
-  Page page(nameOf(a) + " and " + nameOf(b) + " - hoctomap");
+std::string comparisonReport(const ReportedMap& a, const ReportedMap& b, const std::string& diff_json) {
+  const std::string name = nameOf(a.directory) + " and " + nameOf(b.directory);
+  Page page(name + " - hoctomap");
   Json maps = Json::array();
-  maps.push_back(addMap(page, a, std::nullopt, "a"));
-  maps.push_back(addMap(page, b, std::nullopt, "b"));
-  page.addJson("page", Json{{"kind", "compare"},
-                            {"name", nameOf(a) + " and " + nameOf(b)},
-                            {"maps", std::move(maps)},
-                            {"diff", Json::parse(diff_json)}});
+  maps.push_back(addMap(page, a.directory, a.at_scan, "a"));
+  maps.push_back(addMap(page, b.directory, b.at_scan, "b"));
+  page.addJson(
+      "page",
+      Json{{"kind", "compare"}, {"name", name}, {"maps", std::move(maps)}, {"diff", Json::parse(diff_json)}});
   return std::move(page).html();
 }
 

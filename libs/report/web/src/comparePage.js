@@ -51,7 +51,7 @@ export async function comparePage(page) {
     toggles: ["showBoxes", "showLabels"],
   });
   state.colour = "change";
-  stage.element.append(...["A", "B"].map((side, i) => h(`span.sidename.${side.toLowerCase()}`, {}, h("b", {}, side), ` ${page.maps[i].path}`)));
+  stage.element.append(...["A", "B"].map((side, i) => h(`span.sidename.${side.toLowerCase()}`, {}, h("b", {}, side), ` ${page.maps[i].path}, ${plural(page.maps[i].scans, "scan")}`)));
 
   const boxOf = (change) => {
     const boxes = mapScenes.flatMap((mapScene, side) => (nodeOf(change, side) === null ? [] : [mapScene.bounds([nodeOf(change, side)])]));

@@ -70,9 +70,15 @@ export class Stage {
     if (colour === "probability" || colour === "height") {
       const heights = this.mapScenes[0].bounds(this.mapScenes[0].history.nodes.map((n) => n.id));
       const [low, high] = colour === "probability" ? ["0.5", "1"] : [`${heights.min.z.toFixed(2)} m`, `${heights.max.z.toFixed(2)} m`];
-      return [h("span", {}, low), h("i.scale", { style: `background:linear-gradient(90deg,${SCALE.join(",")})` }), h("span", {}, high)];
+      return [h("span", {}, low), h("i.scale", { style: `background:linear-gradient(90deg,${SCALE.join(",")})` }), h("span", {}, high), ...this.#notes()];
     }
-    return this.legendOf(this.state).map(([text, paint]) => h("span", {}, h("i.swatch", { style: `background:${paint}` }), text));
+    return [...this.legendOf(this.state).map(([text, paint]) => h("span", {}, h("i.swatch", { style: `background:${paint}` }), text)), ...this.#notes()];
+  }
+
+  /** What the picture of an earlier scan is not. */
+  #notes() {
+    const earlier = this.mapScenes.length === 1 && this.state.scan < this.mapScenes[0].history.lastScan;
+    return earlier ? [h("span.note", { title: "The scan decides which nodes are there, and where. How they looked after it: hoctomap report --at-scan" }, "voxels as last mapped")] : [];
   }
 
   /** Ids of nodes in a map that fill the picture: those that are shown, without the background. */

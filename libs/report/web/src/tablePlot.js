@@ -5,6 +5,10 @@ import { axis, Plot, style } from "./charts.js";
 import { h } from "./dom.js";
 
 const PAINTS = ["#0b6bcb", "#d9480f", "#2f9e44", "#ae3ec9", "#e8a317", "#0c8599", "#c2255c", "#6b7280"];
+const DASHES = [[], [10, 5], [4, 6], [2, 4]]; // a line is seen below another one
+const short = new Intl.NumberFormat("en", { notation: "compact", maximumSignificantDigits: 4 });
+/** 0.25, 100, 20K, 5M; nothing where uPlot leaves a tick without a number. */
+const shortNumbers = (_, values) => values.map((value) => (value === null ? "" : short.format(value)));
 const isNumber = (text) => text !== "" && Number.isFinite(Number(text));
 
 /** What is shown at first of the tables of known experiments. */
@@ -73,9 +77,10 @@ export class TablePlot {
     this.plot = new Plot({
       legend: { show: false },
       scales: { x: { time: false, distr: logX ? 3 : 1 }, y: { distr: logY ? 3 : 1 } },
-      axes: [axis(x, { size: 30 }), axis(y, { size: 62 })],
+      padding: [8, 24, 0, 0],
+      axes: [axis(x, { size: 30, values: shortNumbers }), axis(y, { size: 62, values: shortNumbers })],
       cursor: { drag: { x: true, y: true } },
-      series: [{}, ...owners.map((name) => ({ label: name, stroke: paint(name), width: 1.6, spanGaps: true, points: { show: true, size: dots ? 6 : 4, fill: paint(name) } }))],
+      series: [{}, ...owners.map((name) => ({ label: name, dash: DASHES[names.indexOf(name) % DASHES.length], stroke: paint(name), width: 1.6, spanGaps: true, points: { show: true, size: dots ? 6 : 4, fill: paint(name) } }))],
     }, uPlot.join(unique), 280);
     this.holder.replaceChildren(this.plot.element);
     this.key.replaceChildren(...names.slice(0, 24).map((name) => h("span", {}, h("i.swatch", { style: `background:${paint(name)}` }), name)), ...(names.length > 24 ? [h("span", {}, `and ${names.length - 24} more`)] : []));

@@ -17,9 +17,15 @@ namespace hoctomap {
 [[nodiscard]] std::string mapReport(const std::filesystem::path& directory,
                                     std::optional<std::uint64_t> at_scan = std::nullopt);
 
-/// The same for two maps of one place, side by side, coloured by what changed.
+/// A map directory, and which of its kept states (default: the map itself).
+struct ReportedMap {
+  std::filesystem::path directory;
+  std::optional<std::uint64_t> at_scan;
+};
+
+/// The same for two maps of one place, or two states of one, side by side, coloured by what changed.
 /// @param diff_json what `hoctomap diff A B --json` prints (docs/json.md)
-[[nodiscard]] std::string comparisonReport(const std::filesystem::path& a, const std::filesystem::path& b,
+[[nodiscard]] std::string comparisonReport(const ReportedMap& a, const ReportedMap& b,
                                            const std::string& diff_json);
 
 /// A page with the figures of experiments (`hoctomap-experiments ... -o FOLDER`), one chapter a folder: plots
