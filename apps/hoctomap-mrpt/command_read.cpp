@@ -55,9 +55,12 @@ void addReadCommand(CLI::App& app, VerbRun& run) {
       ->expected(3);
   verb->add_option("--sensor", options->sensors, "label of a sensor to use; repeat for several");
   verb->add_option("--start", options->start, "first scan");
+  verb->add_option("--end", options->end, "scan before which to stop");
   verb->add_option("--every", options->every, "take every N-th scan")->check(CLI::PositiveNumber);
   verb->add_option("--max-scans", options->max_scans, "stop after this many used scans");
   verb->add_option("--resume-at", options->resume_at, "count, but do not send, the scans before this one");
+  verb->add_option("--sample-pairs", options->sample_pairs,
+                   "only so many pairs of neighbours, spread evenly");
   verb->add_flag("--salvage", options->salvage, "keep what stands before damage");
   addBudgetOptions(*verb, *options);
   verb->callback([=, &run] {

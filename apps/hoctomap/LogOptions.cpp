@@ -44,6 +44,7 @@ void LogOptions::addTo(CLI::App& command) {
       ->expected(1)
       ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
   command.add_option("--start", start, "number of the first scan, from 0")->type_name("N");
+  command.add_option("--end", end, "number of the scan before which to stop")->type_name("N");
   command.add_option("--every", every, "use every N-th scan")->type_name("N")->check(CLI::PositiveNumber);
   command.add_option("--max-scans", max_scans, "stop after N scans")
       ->type_name("N")
@@ -77,6 +78,7 @@ LogReadOptions LogOptions::readOptions(const Settings& settings) const {
   if (up) read.up = parseUp(*up);
   read.sensors = sensors;
   read.start = start;
+  read.end = end;
   read.every = every;
   read.max_scans = max_scans;
   read.salvage = salvage;

@@ -21,6 +21,7 @@ struct LogOptions {
   std::string pose_label;
   std::vector<std::string> sensors;
   std::uint64_t start = 0;
+  std::optional<std::uint64_t> end;
   std::uint64_t every = 1;
   std::optional<std::uint64_t> max_scans;
   std::optional<std::string> up;

@@ -5,6 +5,7 @@
 #include <iostream>
 #include <memory>
 
+#include "BuildEstimate.h"
 #include "Command.h"
 #include "InputIdentity.h"
 #include "LogOptions.h"
@@ -28,12 +29,24 @@ struct BuildOptions {
   std::uint64_t snapshot_every = 0;
   std::string events;
   bool monolithic = false;
+  bool estimate = false;
+  bool json = false;
 };
 
 Settings settingsOf(const BuildOptions& options) {
   LogOptions log = options.log;
   if (options.monolithic) log.overrides.emplace_back("mapping.monolithic=true");
   return log.settings();
+}
+
+int estimate(const BuildOptions& options) {
+  RunLog log(options.log.verbose, options.log.quiet);
+  const tbb::global_control threads(tbb::global_control::max_allowed_parallelism, options.log.threadCount());
+  const Settings settings = settingsOf(options);
+  const BuildEstimate result = estimateBuild(settings, options.log.readOptions(settings),
+                                             [&log](const std::string& text) { log.warn(text); });
+  std::cout << (options.json ? result.json() : result.text()) << std::flush;
+  return 0;
 }
 
 /// What has been mapped already, if a run is continued.
@@ -138,7 +151,14 @@ void addBuildCommand(CLI::App& app, Action& action) {
                    "movements of nodes: CSV with scan|time, node|px,py,pz, x,y,z,yaw,pitch,roll")
       ->type_name("FILE");
   command->add_flag("--monolithic", options->monolithic, "one single map, as stock OctoMap would build it");
-  command->callback([options, &action] { action = [options] { return build(*options); }; });
+  auto* output = command->get_option("--output")->required(false);
+  auto* estimate_only = command->add_flag(
+      "--estimate", options->estimate, "say what a build would take, by a few of its scans; writes nothing");
+  command->add_flag("--json", options->json, "the estimate for programs")->needs(estimate_only);
+  command->callback([options, output, &action] {
+    if (!options->estimate && output->empty()) throw CLI::RequiredError(output->get_name());
+    action = [options] { return options->estimate ? estimate(*options) : build(*options); };
+  });
 }
 
 }  // namespace hoctomap

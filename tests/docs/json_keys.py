@@ -52,6 +52,7 @@ with tempfile.TemporaryDirectory() as name:
         compare('sensors', sensor, optional=('width', 'height'))
     for source in info['pose_sources']:
         compare('pose_sources', source)
+    compare('build --estimate', json.loads(run('build', '--estimate', '--json', '-i', log)))
     compare('info DIR', json.loads(run('info', scene, '--json')))
     compare('verify DIR', json.loads(run('verify', scene, '--json')))
     life = json.loads(run('explain', scene, 2, '--json'))

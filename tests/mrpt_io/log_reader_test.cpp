@@ -150,6 +150,36 @@ TEST(LogReader, SelectionCountsAllScansAndSkipsNone) {
   EXPECT_NE(errorOf<InputError>([&] { readBytes(log, options); }).find("no scan chosen"), std::string::npos);
 }
 
+TEST(LogReader, EndsBeforeAScan) {
+  const std::string log = test::sweep(10);
+  LogReadOptions options;
+  options.start = 3;
+  options.end = 6;
+  EXPECT_EQ(scanNumbers(readBytes(log, options)), (std::vector<std::uint64_t>{3, 4, 5}));
+  options.every = 2;
+  const auto messages = readBytes(log, options);
+  EXPECT_EQ(scanNumbers(messages), (std::vector<std::uint64_t>{3, 5}));
+  EXPECT_EQ(only<StreamHeader>(messages).at(0).chosen_scans, 2U);
+  options.end = 100;
+  EXPECT_EQ(scanNumbers(readBytes(log, options)), (std::vector<std::uint64_t>{3, 5, 7, 9}));
+  options.end = 3;
+  EXPECT_NE(errorOf<InputError>([&] { readBytes(log, options); }).find("--end 3"), std::string::npos);
+}
+
+TEST(LogReader, ASampleIsPairsSpreadOverWhatIsChosen) {
+  const std::string log = test::sweep(23);
+  LogReadOptions options;
+  options.sample_pairs = 3;
+  const auto messages = readBytes(log, options);
+  EXPECT_EQ(scanNumbers(messages), (std::vector<std::uint64_t>{0, 1, 7, 8, 15, 16}));
+  EXPECT_EQ(only<StreamHeader>(messages).at(0).chosen_scans, 23U) << "what there is to judge";
+  options.start = 3;
+  options.every = 2;  // 10 of them
+  EXPECT_EQ(scanNumbers(readBytes(log, options)), (std::vector<std::uint64_t>{3, 5, 9, 11, 15, 17}));
+  options.end = 15;  // 6 of them
+  EXPECT_EQ(scanNumbers(readBytes(log, options)), (std::vector<std::uint64_t>{3, 5, 7, 9, 11, 13}));
+}
+
 TEST(LogReader, MaxScansCountsUsedScans) {
   DepthSpec broken;
   broken.stamp = 99.5;

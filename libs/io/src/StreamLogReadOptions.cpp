@@ -31,9 +31,11 @@ std::vector<std::string> toArguments(const LogReadOptions& options) {
     add("up", text(options.up.x()) + "," + text(options.up.y()) + "," + text(options.up.z()));
   for (const auto& sensor : options.sensors) add("sensor", sensor);
   if (options.start != 0) add("start", text(options.start));
+  if (options.end) add("end", text(*options.end));
   if (options.every != 1) add("every", text(options.every));
   if (options.max_scans) add("max-scans", text(*options.max_scans));
   if (options.resume_at != 0) add("resume-at", text(options.resume_at));
+  if (options.sample_pairs != 0) add("sample-pairs", text(options.sample_pairs));
   if (options.salvage) arguments.emplace_back("--salvage");
   add("max-inflated-bytes", text(options.max_inflated_bytes));
   add("max-ratio", text(options.max_ratio));

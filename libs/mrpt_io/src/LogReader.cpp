@@ -65,7 +65,9 @@ struct LogReader::Passes {
                 const std::filesystem::path& folder, const Sink& sink);
   StreamMessage messageFrom(const Observed& observed, std::uint64_t scan,
                             const std::filesystem::path& folder) const;
-  [[nodiscard]] bool done() const { return options.max_scans && used >= *options.max_scans; }
+  [[nodiscard]] bool done() const {
+    return (options.max_scans && used >= *options.max_scans) || (selector && selector->ended());
+  }
 
   LogReadOptions options;
   ReadProgress& progress;
@@ -92,7 +94,7 @@ void LogReader::stream(const Sink& sink) {
   Passes& p = *passes_;
   for (const auto& warning : p.warnings) sink(StreamWarning{warning}, {});
   sink(p.header, {});
-  p.selector.emplace(p.options);
+  p.selector.emplace(p.options, p.header.chosen_scans);
   for (std::uint32_t log = 0; log < p.options.logs.size() && !p.done(); ++log) p.streamLog(log, sink);
   sink(StreamEnd{p.used, p.skipped}, p.progress.get());
 }
@@ -171,16 +173,18 @@ void LogReader::Passes::makeHeader() {
 /// An upper bound: which sensor a scan is of is known in the second pass only.
 void LogReader::Passes::countChosen() {
   const std::uint64_t first = std::max(options.start, options.resume_at);
-  if (options.start >= header.total_scans)
+  const std::uint64_t end = std::min(options.end.value_or(header.total_scans), header.total_scans);
+  if (options.start >= end)
     throw InputError("no scan chosen: the log has " + countOf(header.total_scans, "scan") + ", --start is " +
-                     std::to_string(options.start));
+                     std::to_string(options.start) +
+                     (options.end ? ", --end " + std::to_string(*options.end) : std::string()));
   std::uint64_t of_sensors = 0;
   for (const auto& sensor : header.sensors) {
     const auto& wanted = options.sensors;
     if (wanted.empty() || std::find(wanted.begin(), wanted.end(), sensor.label) != wanted.end())
       of_sensors += sensor.scans;
   }
-  const std::uint64_t left = first < header.total_scans ? header.total_scans - first : 0;
+  const std::uint64_t left = first < end ? end - first : 0;
   header.chosen_scans = (std::min(of_sensors, left) + options.every - 1) / options.every;
   if (options.max_scans) header.chosen_scans = std::min(header.chosen_scans, *options.max_scans);
 }

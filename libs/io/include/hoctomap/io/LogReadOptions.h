@@ -24,11 +24,16 @@ struct LogReadOptions {
 
   std::vector<std::string> sensors{};        ///< labels; none: all
   std::uint64_t start = 0;                   ///< number of the first scan taken
+  std::optional<std::uint64_t> end{};        ///< number of the first scan not taken any more
   std::uint64_t every = 1;                   ///< take every n-th of the scans of the chosen sensors
   std::optional<std::uint64_t> max_scans{};  ///< stop after this many *used* scans
   /// Scans before this number are chosen, counted and converted as always, but not sent: a continued run
   /// takes up exactly where it was, whatever `start`, `every` and `max_scans` say.
   std::uint64_t resume_at = 0;
+
+  /// 0: all scans. Else only pairs of neighbouring ones, so many, spread evenly over those chosen otherwise;
+  /// all where there are no more than those.
+  std::uint64_t sample_pairs = 0;
 
   bool salvage = false;  ///< keep what stands before damage, with a warning, instead of an error
 
