@@ -1,6 +1,7 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: BSD-3-Clause
 # Installs the Debian 12 packages that are missing. Uses sudo only when not root.
+#   --workflows   also Snakemake and Slurm, for workflows/ and its tests; without them those tests are skipped
 set -euo pipefail
 
 packages=(
@@ -32,6 +33,8 @@ packages=(
 )
 # The page of reports is bundled from packages of npm, and tests use some; it brings many packages where it is not there in some other way.
 command -v npm >/dev/null || packages+=(nodejs npm)
+
+[ "${1:-}" != --workflows ] || packages+=(snakemake slurm-wlm munge)
 
 missing=()
 for package in "${packages[@]}"; do
