@@ -6,8 +6,10 @@
 
 namespace hoctomap {
 
-/// The first line of a manifest: the hash of all that follows it. Who names the hashes of all files is to be
-/// noticed itself when it is cut or a bit of it is flipped.
+constexpr std::string_view kOwnHashMark = "# sha256: ";
+
+/// The first line of a manifest, a comment: the hash of all that follows it. Who names the hashes of all
+/// files is to be noticed itself when it is cut or a bit of it is flipped.
 [[nodiscard]] std::string ownHashLine(std::string_view rest);
 
 }  // namespace hoctomap

@@ -5,7 +5,6 @@
 #include <cctype>
 #include <cmath>
 #include <limits>
-#include <set>
 #include <string_view>
 
 #include "ManifestHash.h"
@@ -166,29 +165,18 @@ void readVersion(const YamlSection& document) {
                                     (version > kMapFormatVersion ? "; use a newer program" : ""));
 }
 
-/// A damaged name would make a missing key of a known one.
-void refuseUnknownKeys(const YamlSection& document) {
-  static const std::set<std::string> known{
-      "sha256", "format_version", "generator",     "scans",   "mapped_scans", "skipped_scans",
-      "edits",  "last_stamp",     "config_sha256", "input",   "next_id",      "files",
-      "sensor", "motions",        "nodes",         "removed", "waiting"};
-  for (const std::string& key : document.keys()) {
-    if (!known.contains(key)) document.refuse("`" + escapedText(key, 60) + "` is no key of a map");
-  }
-}
-
-/// Maps of other programs need not have it.
-void checkOwnHash(const YamlSection& document, std::string_view text) {
-  if (!document.has("sha256")) return;
+/// Maps of other programs need not have it, nor have those that a YAML writer has written again.
+void checkOwnHash(std::string_view text, const std::string& name) {
+  if (!text.starts_with(kOwnHashMark)) return;
   const std::size_t rest = std::min(text.find('\n'), text.size() - 1) + 1;
   if (text.substr(0, rest) != ownHashLine(text.substr(rest)))
-    document["sha256"].refuse(
-        "is not that of what follows: the file is damaged (who edits it by hand takes this line out)");
+    throw MapError(name +
+                   ": the hash in its first line is not that of what follows: the file is damaged (who "
+                   "edits it by hand takes that line out)");
 }
 
 Manifest readDocument(const YamlSection& document, const std::string& name) {
   readVersion(document);
-  refuseUnknownKeys(document);
   Manifest manifest;
   manifest.generator = document["generator"].text();
   manifest.scans = document["scans"].count();
@@ -230,7 +218,7 @@ Manifest parseManifest(const std::string& text, const std::string& name) {
     requireSimpleYaml(text, name);
     const YamlSection document(YAML::Load(text), name);
     Manifest manifest = readDocument(document, name);
-    checkOwnHash(document, text);
+    checkOwnHash(text, name);
     return manifest;
   } catch (const YAML::Exception& error) {
     throw MapError(name + ": line " + std::to_string(error.mark.line + 1) + ": " + escapedText(error.msg));

@@ -90,7 +90,7 @@ std::string nodesText(const char* key, const std::vector<NodeRecord>& nodes) {
 }  // namespace
 
 std::string ownHashLine(std::string_view rest) {
-  return "sha256: " + yamlText(sha256Hex(rest)) + "\n";
+  return std::string(kOwnHashMark) + sha256Hex(rest) + "\n";
 }
 
 std::string toYaml(const Manifest& manifest) {

@@ -31,11 +31,6 @@ class YamlSection {
     if (!child.IsDefined()) refuse("has no key `" + key + "`");
     return {child, place_ + ": " + key};
   }
-  [[nodiscard]] std::vector<std::string> keys() const {
-    std::vector<std::string> all;
-    for (const auto& entry : node_) all.push_back(entry.first.IsScalar() ? entry.first.Scalar() : "?");
-    return all;
-  }
   [[nodiscard]] std::vector<YamlSection> items() const {
     if (!node_.IsSequence()) refuse("is no list");
     std::vector<YamlSection> all;
