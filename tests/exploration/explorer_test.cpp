@@ -96,6 +96,27 @@ BoxWorld oneTable() {
   return world;
 }
 
+// Near and useful for its price, and yet not worth a trip.
+TEST(ExplorationStep, ChoosesTheMostUsefulOfTheCandidatesWorthATrip) {
+  ExplorationStep step;
+  const auto add = [&step](double gain, double utility) {
+    step.candidates.push_back({.viewpoint = {}, .gain = gain, .cost = gain / utility, .utility = utility});
+  };
+  add(30.0, 9.0);
+  add(80.0, 5.0);
+  add(100.0, 4.0);
+  add(81.0, 5.0);
+  EXPECT_DOUBLE_EQ(step.mostGain(), 100.0);
+  step.choose(20.0);
+  EXPECT_EQ(step.chosen, 0U);
+  step.choose(30.0);  // exceeds
+  EXPECT_EQ(step.chosen, 1U);
+  step.choose(90.0);
+  EXPECT_EQ(step.chosen, 2U);
+  step.choose(100.0);
+  EXPECT_FALSE(step.chosen);
+}
+
 TEST(Explorer, AcquiresTheModelOfATableAndEnds) {
   Exploration exploration(oneTable());
   exploration.run();

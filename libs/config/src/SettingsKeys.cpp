@@ -213,7 +213,8 @@ constexpr auto settings_keys = std::to_array<Key<Settings>>({
      &at<&S::exploration, &A::utility>},
     {"exploration", "alpha", "", share, "Weight of the gain in Eq. 13", &at<&S::exploration, &A::alpha>},
     {"exploration", "tau", "", share,
-     "A table is explored when no viewpoint has more than this share of its first gain",
+     "A viewpoint is worth a trip if its gain is more than this share of the table's first one; a table "
+     "without such is explored",
      &at<&S::exploration, &A::tau>},
     {"exploration", "first_look", "scans", within(1, 1000),
      "Scans all around at the start, for the background", &at<&S::exploration, &A::first_look>},

@@ -34,26 +34,6 @@ std::optional<Eigen::Vector2d> nextOn(const std::vector<Eigen::Vector2d>& path, 
 
 }  // namespace
 
-std::string toString(StepKind kind) {
-  switch (kind) {
-    case StepKind::look_around:
-      return "look_around";
-    case StepKind::first_view:
-      return "first_view";
-    case StepKind::view:
-      return "view";
-    case StepKind::move_failed:
-      return "move_failed";
-    case StepKind::explored:
-      return "explored";
-    case StepKind::unreachable:
-      return "unreachable";
-    case StepKind::out_of_views:
-      break;
-  }
-  return "out_of_views";
-}
-
 std::string toString(TableOutcome outcome) {
   switch (outcome) {
     case TableOutcome::explored:
@@ -177,10 +157,6 @@ void Explorer::exploreStep(const TableArea& area) {
 
   const Wanted wanted = wantedOf(state);
   step.kind = wanted == Wanted::boxes ? StepKind::view : StepKind::first_view;
-  const auto by = [&step](double ExplorationStep::Candidate::*what) {
-    return std::max_element(step.candidates.begin(), step.candidates.end(),
-                            [what](const auto& a, const auto& b) { return a.*what < b.*what; });
-  };
   // What is left may be seen from few places: a table is not given up for one set V that has none of them.
   constexpr std::uint64_t kDraws = 3;
   bool worth_it = false;
@@ -188,17 +164,16 @@ void Explorer::exploreStep(const TableArea& area) {
     const std::vector<Viewpoint> candidates = candidatesOf(area, travel, draw);
     if (candidates.empty()) return end(state, TableOutcome::unreachable, step);
     evaluate(step, candidates, knowledge, travel, wanted);
-    const double best_gain = by(&ExplorationStep::Candidate::gain)->gain;
     std::optional<double>& first_gain =
         wanted == Wanted::boxes ? state.first_box_gain : state.first_everything_gain;
-    if (!first_gain) first_gain = best_gain;
-    worth_it = best_gain > config_.tau * *first_gain;
+    if (!first_gain) first_gain = step.mostGain();
+    step.choose(config_.tau * *first_gain);
+    worth_it = step.chosen.has_value();
   }
   if (!worth_it) {
     // Never seen at all: not from where the robot can get to.
     return end(state, state.views == 0 ? TableOutcome::unreachable : TableOutcome::explored, step);
   }
-  step.chosen = static_cast<std::size_t>(by(&ExplorationStep::Candidate::utility) - step.candidates.begin());
   goAndMeasure(state, travel, step);
   report(step);
 }

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "hoctomap/exploration/ExpectedInformationGain.h"
+#include "hoctomap/exploration/ExplorationStep.h"
 #include "hoctomap/exploration/ViewpointSampler.h"
 #include "hoctomap/mapping/HierarchyMapper.h"
 
@@ -25,47 +26,13 @@ struct ExplorationConfig {
   TableSpace space;
   UtilityForm utility = UtilityForm::ratio;
   double alpha = 0.5;  ///< weight of the gain, Eq. 13
-  double tau = 0.04;   ///< a table is explored when no gain is more than this share of its first one
+  double tau = 0.045;  ///< a gain of no more than this share of a table's first one is no trip worth
   int first_look = 7;  ///< views around at the start, for the background
   int max_views = 20;  ///< of one table
   double cleared_resolution = 0.01;  ///< m
   RangeNoise noise;                  ///< of the sensor: what is measured worse than that is not known
   double cell = 0.005;               ///< m, of the grid that gains are computed in
   std::uint64_t seed = 1;
-};
-
-/// What a step of the exploration did.
-enum class StepKind : std::uint8_t {
-  look_around,  ///< from where the robot stood at the start
-  first_view,   ///< of a table: to find its objects
-  view,         ///< of a table, for what its objects hide
-  move_failed,  ///< nothing was measured
-  explored,     ///< the table is done: no viewpoint was worth it
-  unreachable,  ///< no place from which the table can be seen can be reached
-  out_of_views  ///< the table has had its number of views
-};
-[[nodiscard]] std::string toString(StepKind kind);
-
-/// One turn of the loop of Algorithm 1.
-struct ExplorationStep {
-  struct Candidate {
-    Viewpoint viewpoint;
-    double gain = 0.0;  ///< bits or cells, see GainMeasure
-    double cost = 0.0;  ///< s
-    double utility = 0.0;
-  };
-
-  std::uint64_t step = 0;
-  StepKind kind = StepKind::look_around;
-  std::optional<NodeId> table;                        ///< none while looking around
-  std::optional<std::uint64_t> scan;                  ///< number of the measurement that was taken
-  std::vector<Candidate> candidates;                  ///< V
-  std::optional<std::size_t> chosen;                  ///< v*, of the candidates
-  std::vector<Eigen::Vector2d> path;                  ///< to it
-  double travel = 0.0;                                ///< m, of this step
-  double entropy = 0.0;                               ///< bits, of the space over the table before the step
-  std::size_t unknown_in_boxes = 0;                   ///< cells, before the step
-  const TraversabilityMap* traversability = nullptr;  ///< m_trav, during the call; none while looking around
 };
 
 enum class TableOutcome : std::uint8_t { explored, unreachable, out_of_views };
