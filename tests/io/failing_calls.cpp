@@ -15,12 +15,14 @@ namespace {
 std::atomic<bool> g_armed{false};
 std::atomic<int> g_left{0};
 std::atomic<int> g_error{0};
-std::atomic<bool> g_short_write{false};
+std::atomic<hoctomap::test::FailingCall::Then> g_then{};
 std::atomic<bool> g_full{false};
 
 /// Counts a call; whether it is the one to fail.
 bool fails() {
-  if (!g_armed || g_left-- != 0) return false;
+  if (!g_armed) return false;
+  const int left = g_left--;
+  if (left > 0 || (left < 0 && g_then != hoctomap::test::FailingCall::Then::gone)) return false;
   errno = g_error;
   return true;
 }
@@ -50,7 +52,7 @@ int __wrap_open(const char* file, int flags, ...) {
 ssize_t __wrap_pwrite(int fd, const void* from, std::size_t bytes, off_t at) {
   if (g_armed && g_full) return errno = g_error, -1;
   if (!fails()) return __real_pwrite(fd, from, bytes, at);
-  if (!g_short_write) return -1;
+  if (g_then != hoctomap::test::FailingCall::Then::full) return -1;
   g_full = true;
   return __real_pwrite(fd, from, (bytes + 1) / 2, at);
 }
@@ -83,10 +85,10 @@ int __wrap_mkdir(const char* directory, mode_t mode) {
 
 namespace hoctomap::test {
 
-FailingCall::FailingCall(int n, int error, bool short_write) {
+FailingCall::FailingCall(int n, int error, Then then) {
   g_left = n;
   g_error = error;
-  g_short_write = short_write;
+  g_then = then;
   g_full = false;
   g_armed = true;
 }

@@ -8,9 +8,14 @@ namespace hoctomap::test {
 /// (CMakeLists.txt).
 class FailingCall {
  public:
-  /// Call number `n`, from 0, fails with `error` (an errno); with `short_write` a pwrite writes a half first
-  /// and all calls after it that need room fail, as on a full disk.
-  FailingCall(int n, int error, bool short_write = false);
+  /// What becomes of the calls after the one that fails.
+  enum class Then {
+    goes_on,
+    full,  ///< a pwrite writes a half first, and all calls after it that need room fail, as on a full disk
+    gone,  ///< all of them fail
+  };
+  /// Call number `n`, from 0, fails with `error` (an errno).
+  FailingCall(int n, int error, Then then = Then::goes_on);
   ~FailingCall();
   FailingCall(const FailingCall&) = delete;
   FailingCall& operator=(const FailingCall&) = delete;

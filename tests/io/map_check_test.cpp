@@ -65,9 +65,10 @@ TEST_F(MapCheckTest, EveryDamagedFileIsNamed) {
 TEST_F(MapCheckTest, AnOctreeThatIsNotTheOneDescribed) {
   Manifest manifest = readManifest(map());
   ++manifest.nodes[1].voxels.free;
+  ++manifest.nodes[2].voxels.occupied;
   test::writeText(map() / "hierarchy.yaml", toYaml(manifest));
   const MapCheck check = checkMap(map());
-  ASSERT_EQ(paths(check), std::vector<std::string>{manifest.nodes[1].ot.path});
+  ASSERT_EQ(paths(check), (std::vector<std::string>{manifest.nodes[1].ot.path, manifest.nodes[2].ot.path}));
   EXPECT_NE(check.damage.front().what.find("free voxels"), std::string::npos);
 }
 
@@ -83,6 +84,14 @@ TEST_F(MapCheckTest, ForeignFilesAreListedAndLeftAlone) {
   EXPECT_TRUE(check.damage.empty());
   EXPECT_EQ(check.foreign, (std::vector<std::string>{"notes.txt", "nodes/notes.ot"}));
   EXPECT_TRUE(std::filesystem::exists(map() / "notes.txt"));
+}
+
+/// Names that are nearly ours.
+TEST_F(MapCheckTest, WhatIsCalledLikeAFileOfAMapIsForeign) {
+  const std::vector<std::string> names{"hierarchy-.yaml", "hierarchy-000012.yml", "hierarchy-12.yaml",
+                                       "seams-.csv",      "seams-000001.txt",     "seams-csv"};
+  for (const std::string& name : names) test::writeText(map() / name, "mine");
+  EXPECT_EQ(checkMap(map()).foreign, names);
 }
 
 TEST_F(MapCheckTest, NoMap) {

@@ -92,5 +92,34 @@ TEST(MapOpen, AnotherConfigurationCannotContinue) {
   }
 }
 
+TEST(MapOpen, WhatIsAnotherConfigurationIsSaid) {
+  const TemporaryFolder folder;
+  test::Rng rng(1);
+  const auto map = folder.path() / "map";
+  const MapDirectoryOptions same = mapOptions(MapOpenMode::resume);
+  {
+    MapDirectory writer(map, same);
+    writer.commit({test::randomHierarchy(rng, 1), {}, 1});
+  }
+  const auto why = [&](const std::string& config) -> std::string {
+    MapDirectoryOptions other = same;
+    other.config = config;
+    try {
+      const MapDirectory writer(map, other);
+    } catch (const ConfigError& error) {
+      return error.what();
+    }
+    return "no error";
+  };
+  EXPECT_NE(why(same.config + "more = 1\n").find("`nothing` in the map, `more = 1` now"), std::string::npos);
+  EXPECT_NE(why("[mapping]\n").find("`association_margin = 0.01` in the map, `nothing` now"),
+            std::string::npos);
+  // Stored text and hash contradict each other: there is no line to show, nor is there without the text.
+  test::writeText(map / "config.ini", "[mapping]\n");
+  EXPECT_NE(why("[mapping]\n").find("being continued; use -c"), std::string::npos);
+  std::filesystem::remove(map / "config.ini");
+  EXPECT_NE(why("[mapping]\n").find("being continued; use -c"), std::string::npos);
+}
+
 }  // namespace
 }  // namespace hoctomap

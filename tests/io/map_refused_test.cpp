@@ -90,6 +90,16 @@ TEST_F(MapRefused, Trees) {
                 }),
                 "twice");
   expectRefused(yamlWith([](Manifest& m) { m.nodes.at(0).children.clear(); }), "children");
+  expectRefused(yamlWith([](Manifest& m) {
+                  m.nodes.resize(1);
+                  m.nodes.at(0).id = NodeId{1};
+                }),
+                "the root must have id 0");
+  expectRefused(yamlWith([](Manifest& m) {
+                  m.nodes.at(0).parent_T_node = Pose(1, 0, 0, 0, 0, 0);
+                  m.nodes.at(0).world_T_node = m.nodes.at(0).parent_T_node;
+                }),
+                "frame must be the world's");
   expectRefused(yamlWith([&](Manifest& m) { m.next_id = second; }), "next_id");
   expectRefused(yamlWith([](Manifest& m) {  // two nodes that are each other's parents
                   const NodeId a = m.nodes.at(1).id;
@@ -126,6 +136,12 @@ TEST_F(MapRefused, Values) {
     expectRefused(yamlWith([&](Manifest& m) { m.nodes.at(1).ot.path = path; }), "out of the map directory");
   }
   expectRefused(yamlWith([](Manifest& m) { m.nodes.at(1).world_T_node.x(77.0); }), "world_pose");
+  expectRefused(yamlWith([](Manifest& m) { m.nodes.at(1).box_half_extents.y() = -0.1; }), "negative extent");
+  for (const double infinite : {1.0, -1.0}) {
+    expectRefused(
+        yamlWith([&](Manifest& m) { m.last_stamp = infinite * std::numeric_limits<double>::infinity(); }),
+        "last_stamp");
+  }
 }
 
 TEST_F(MapRefused, WhatWaits) {
@@ -164,6 +180,11 @@ TEST_F(MapRefused, Texts) {
   expectRefused(replaced("pose_matrix: [1.0, ", "pose_matrix: ["), "pose_matrix");
   expectRefused(replaced("    pose: \"[0.0 ", "    pose: \"[5.0 "), "pose");
   expectRefused(replaced("    pose: \"[0.0 ", "    pose: \"[0,0 "), "pose");
+  expectRefused(replaced("    pose: \"[", "    pose: \"("), "pose");
+  expectRefused(replaced("0.0]\"\n    world_pose", "0.0)\"\n    world_pose"), "pose");
+  expectRefused(replaced("generator: ", "generatr: "), "`generatr` is no key");
+  expectRefused(replaced("generator: ", "[1, 2]: 3\ngenerator: "), "is no key");
+  expectRefused(replaced("format_version: 1\n", "format_version: 1\ninput: 's [[[[[[['\n"), "sha256");
   expectRefused("", "mapping");
   expectRefused("just a text", "");
   expectRefused("[1, 2", "line");
@@ -196,6 +217,33 @@ TEST_F(MapRefused, AManifestWithoutItsOwnHashIsThatOfAnotherProgram) {
   yaml.erase(0, yaml.find('\n') + 1);
   EXPECT_EQ(toYaml(parseManifest(yaml, "m.yaml")), toYaml(manifest_));
   EXPECT_EQ(toYaml(parseManifest(yaml + "more: 1\n", "m.yaml")), toYaml(manifest_));
+}
+
+TEST_F(MapRefused, FilesOfAnotherKindOrSize) {
+  std::filesystem::remove(map() / "config.ini");
+  std::filesystem::create_directory(map() / "config.ini");
+  EXPECT_EQ(findDamage(map(), manifest_).at(0).path, "config.ini");
+  std::filesystem::resize_file(map() / "events.csv", 1);
+  EXPECT_EQ(findDamage(map(), manifest_).at(1).path, "events.csv");
+  std::filesystem::resize_file(map() / "hierarchy.yaml", (1U << 28U) + 1U);  // takes no room on the disk
+  EXPECT_THROW(static_cast<void>(readManifest(map())), LimitError);
+  // A map that cannot be read is overwritten all the same.
+  MapDirectory writer(map(), test::mapOptions(MapOpenMode::overwrite));
+  EXPECT_FALSE(writer.committed());
+  EXPECT_THROW(writer.writeScene([](const auto&, const auto&) {}), std::logic_error);
+}
+
+/// Keys that came later may be missing.
+TEST_F(MapRefused, MapsOfEarlierVersionsAreNot) {
+  std::string yaml = toYaml(manifest_);
+  for (const char* key : {"sha256: ", "mapped_scans: ", "skipped_scans: ", "last_stamp: ", "waiting: "}) {
+    const auto at = yaml.starts_with(key) ? 0 : yaml.find("\n" + std::string(key)) + 1;
+    ASSERT_TRUE(yaml.substr(at).starts_with(key)) << key;
+    yaml.erase(at, yaml.find('\n', at) + 1 - at);
+  }
+  const Manifest back = parseManifest(yaml, "m.yaml");
+  EXPECT_EQ(back.nodes.size(), manifest_.nodes.size());
+  EXPECT_EQ(back.mapped_scans, 0U);
 }
 
 TEST_F(MapRefused, TooDeepIsALimit) {

@@ -131,6 +131,10 @@ TEST_F(OctreeFile, HeaderIsStrict) {
   }
   refused("# Octomap OcTree file\nid OcTree\nres 0.05\ndata\n");
   refused("# Octomap OcTree file\nid OcTree\nsize 1\nres 0.05\nwhat 1\ndata\n");
+  refused("# Octomap OcTree file\nid OcTree\nid OcTree\nsize 1\nres 0.05\ndata\n");
+  refused("# Octomap OcTree file\nid OcTree\nsize 1\nres 0.05\nres 0.05\ndata\n");
+  refused("# Octomap OcTree file\nid OcTree\nsize 1\ndata\n");
+  refused("# Octomap OcTree file\nid OcTree\nsize 1\nres 0.05\ndata\n" + otNode(1.0F, 1));  // holds two
   refused("# Octomap OcTree file\n" + std::string(1'000'000, 'x'));
 }
 
