@@ -182,9 +182,8 @@ TEST_F(MapRefused, Texts) {
   expectRefused(replaced("    pose: \"[0.0 ", "    pose: \"[0,0 "), "pose");
   expectRefused(replaced("    pose: \"[", "    pose: \"("), "pose");
   expectRefused(replaced("0.0]\"\n    world_pose", "0.0)\"\n    world_pose"), "pose");
-  expectRefused(replaced("generator: ", "generatr: "), "`generatr` is no key");
-  expectRefused(replaced("generator: ", "[1, 2]: 3\ngenerator: "), "is no key");
-  expectRefused(replaced("format_version: 1\n", "format_version: 1\ninput: 's [[[[[[['\n"), "sha256");
+  expectRefused(replaced("generator: ", "generatr: "), "no key `generator`");
+  expectRefused(replaced("format_version: 1\n", "format_version: 1\ninput: 's [[[[[[['\n"), "hash");
   expectRefused("", "mapping");
   expectRefused("just a text", "");
   expectRefused("[1, 2", "line");
@@ -236,7 +235,7 @@ TEST_F(MapRefused, FilesOfAnotherKindOrSize) {
 /// Keys that came later may be missing.
 TEST_F(MapRefused, MapsOfEarlierVersionsAreNot) {
   std::string yaml = toYaml(manifest_);
-  for (const char* key : {"sha256: ", "mapped_scans: ", "skipped_scans: ", "last_stamp: ", "waiting: "}) {
+  for (const char* key : {"# sha256: ", "mapped_scans: ", "skipped_scans: ", "last_stamp: ", "waiting: "}) {
     const auto at = yaml.starts_with(key) ? 0 : yaml.find("\n" + std::string(key)) + 1;
     ASSERT_TRUE(yaml.substr(at).starts_with(key)) << key;
     yaml.erase(at, yaml.find('\n', at) + 1 - at);
