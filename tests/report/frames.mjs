@@ -50,8 +50,9 @@ function turn(frames) {
 const browser = await launch();
 for (const file of process.argv.slice(2)) {
   const page = await browser.newPage({ viewport: { width: 1280, height: 800 } });
-  const start = Date.now();
-  const since = () => `${((Date.now() - start) / 1000).toFixed(1)} s`;
+  page.setDefaultTimeout(300000);
+  const [start, cpuAtStart] = [Date.now(), cpuSeconds()];
+  const since = () => `${((Date.now() - start) / 1000).toFixed(1)} s (${(cpuSeconds() - cpuAtStart).toFixed(1)} s of CPU)`;
   await page.goto(`file://${resolve(file)}`);
   await page.waitForFunction(() => document.documentElement.dataset.ready);
   const usable = since();

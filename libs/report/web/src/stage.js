@@ -48,7 +48,7 @@ export class Stage {
 
   /** Reads the voxels; what is there is shown. */
   async load() {
-    for (const mapScene of this.mapScenes) await mapScene.load(() => this.viewer.invalidate());
+    for (const mapScene of this.mapScenes) await mapScene.load(() => this.viewer.refine());
     this.viewer.loading = false;
     document.documentElement.dataset.ready = "true";
     this.show();

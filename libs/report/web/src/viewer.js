@@ -60,6 +60,12 @@ export class Viewer {
   }
 
   invalidate() {
+    this.stale = true;
+    this.refine();
+  }
+
+  /** There may be more detail to show. */
+  refine() {
     this.onSettled(false);
     if (this.pending) return;
     this.pending = requestAnimationFrame(() => {
@@ -92,8 +98,7 @@ export class Viewer {
 
   draw() {
     const start = performance.now();
-    const { renderer } = this;
-    const { camera } = this.eye;
+    const { renderer, eye: { camera } } = this;
     const moving = this.loading || start - this.lastMove < this.#patience();
     if (moving && this.moving) this.#adapt(start - this.lastDraw);
     this.#setSharpness(moving);
@@ -102,6 +107,25 @@ export class Viewer {
     for (const { mapScene } of this.views) mapScene.scene.updateMatrixWorld();
     const models = this.views.flatMap((view) => this.#shownModels(view));
     const { wanted, rectangles } = showTiles(models, camera, perRadian, moving ? { ...this.detail.moving, most: this.mostMoving } : this.detail.rest);
+    // What only becomes finer is drawn when it is twice as fine, and in the end.
+    if (this.stale || wanted.length === 0 || rectangles > 2 * this.drawn) {
+      this.#render(models, perRadian);
+      this.stale = false;
+      this.drawn = rectangles;
+    }
+    const built = this.#build(wanted, moving ? BUILD_MS[0] : Math.max(BUILD_MS[0], Math.min(BUILD_MS[1], start - this.lastDraw)));
+    this.lastDraw = start;
+    this.moving = moving;
+    if (!moving) this.isHeavy = rectangles > this.detail.moving.most;
+    this.afterDraw();
+    if (wanted.length === 0 && !moving) this.onSettled(true);
+    clearTimeout(this.rest);
+    if (built) this.refine();
+    else if (moving) this.rest = setTimeout(() => this.invalidate(), this.#patience() + 10);
+  }
+
+  #render(models, perRadian) {
+    const { renderer } = this;
     renderer.setScissorTest(false);
     renderer.setClearColor(this.background);
     renderer.clear();
@@ -112,18 +136,8 @@ export class Viewer {
       renderer.setViewport(...rectangle);
       renderer.setScissor(...rectangle);
       renderer.setScissorTest(true);
-      renderer.render(view.mapScene.scene, camera);
+      renderer.render(view.mapScene.scene, this.eye.camera);
     }
-    // At rest, as long as a picture takes: where drawing is slow, few pictures are drawn until all is there.
-    const built = this.#build(wanted, moving ? BUILD_MS[0] : Math.max(BUILD_MS[0], Math.min(BUILD_MS[1], start - this.lastDraw)));
-    this.lastDraw = start;
-    this.moving = moving;
-    if (!moving) this.isHeavy = rectangles > this.detail.moving.most;
-    this.afterDraw();
-    if (wanted.length === 0 && !moving) this.onSettled(true);
-    clearTimeout(this.rest);
-    if (built) this.invalidate();
-    else if (moving) this.rest = setTimeout(() => this.invalidate(), this.#patience() + 10);
   }
 
   /** How long after a motion (ms) it counts as going on: longer with the mouse held, and where pictures take long. */
@@ -142,7 +156,9 @@ export class Viewer {
   /** Without a graphics card every pixel costs: fewer while the picture moves. */
   #setSharpness(moving) {
     const ratio = this.software ? (moving ? 0.6 : 1) : Math.min(2, window.devicePixelRatio);
-    if (ratio !== this.renderer.getPixelRatio()) this.renderer.setPixelRatio(ratio);
+    if (ratio === this.renderer.getPixelRatio()) return;
+    this.renderer.setPixelRatio(ratio);
+    this.stale = true; // another size is an empty picture
   }
 
   #shownModels(view) {
