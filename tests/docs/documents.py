@@ -2,7 +2,7 @@
 """The documents, their blocks of commands, and how a test runs those."""
 import pathlib, re
 
-COMMAND = re.compile(r'\s*(\./)?(hoctomap(-\w+)? |scripts/|cmake |ctest |cpack|apt |colcon |python3 |/usr/bin/python3 |build/|alias |[A-Z_]+=\S+ |rosbag2rawlog )')
+COMMAND = re.compile(r'\s*(\./)?(hoctomap(-\w+)? |scripts/|cmake |ctest |cpack|apt |colcon |python3 |/usr/bin/python3 |build/|alias |[A-Z_]+=\S+ |rosbag2rawlog |snakemake )')
 
 # Blocks marked `sh small` are experiments of minutes and hours. A test runs them with these changes.
 SMALL = [
@@ -26,6 +26,9 @@ ELSEWHERE = {
     r'cmake --install build/release --prefix \S+': 'tests/install installs',
     r'PYTHONPATH=build/dev/python /usr/bin/python3 -m pytest tests/python': 'ctest runs it',
     r'(\./)?scripts/(package_test|tsan|coverage)\.sh( io)?': 'root, or half an hour',
+    r'scripts/workflow_test\.sh': 'minutes; tests/workflows runs it with four logs',
+    r'(scripts/slurm_here\.sh )?snakemake .*--profile workflows/profiles/slurm.*': 'scripts/workflow_test.sh does, with a Slurm of its own',
+    r'snakemake -s workflows/Snakefile --directory dataset --cores 8': 'docs/tutorials/many_logs.md does',
     r'apt install \./build/release/packages/\S+ \./build/release/packages/\S+': 'scripts/package_test.sh does, in a clean root',
     r'scripts/benchmark\.sh( \[LOG\])?': 'half an hour; hoctomap-experiments performance --quick is tested',
     r'HOCTOMAP_BENCHMARK_LOG=\S+ build/benchmark/tests/benchmarks/hoctomap-benchmarks .*': 'part of scripts/benchmark.sh',
@@ -35,7 +38,7 @@ ELSEWHERE = {
 
 def all_documents(sources):
     """Every page of the project."""
-    folders = [sources / name for name in ('docs', 'libs', 'apps', 'tests', 'python', 'packaging', 'configs')]
+    folders = [sources / name for name in ('docs', 'libs', 'apps', 'tests', 'python', 'packaging', 'configs', 'workflows')]
     pages = [page for folder in folders for page in sorted(folder.rglob('*.md')) if 'node_modules' not in page.parts]
     return sorted(sources.glob('*.md')) + pages
 

@@ -14,7 +14,7 @@ def prepare(top):
     """@returns the folder, which looks like a clone beside `shared`, and the environment of a reader."""
     folder = top / 'clone'
     folder.mkdir()
-    for name in ('configs', 'rawlogs', 'scripts', 'tests'):
+    for name in ('configs', 'rawlogs', 'scripts', 'tests', 'workflows'):
         (folder / name).symlink_to(sources / name)
     shutil.copytree(sources / 'docs', folder / 'docs')  # scripts/insert_figures.sh changes pages
     commands = top / 'bin'
@@ -37,6 +37,9 @@ def prepare(top):
     return folder, environment
 
 
+if not shutil.which('snakemake') and any(line.startswith('snakemake ') for info, _, lines in blocks(document) if info == 'sh' for line in lines):
+    print('skipped: snakemake is not installed (scripts/install_dependencies.sh --workflows)')
+    sys.exit(77)
 failures, ran = [], 0
 with tempfile.TemporaryDirectory() as name:
     folder, environment = prepare(pathlib.Path(name))

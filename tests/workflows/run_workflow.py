@@ -193,32 +193,31 @@ def compare(a, b, names):
     expect((a / 'summary.csv').read_bytes() == (b / 'summary.csv').read_bytes(), f'{a.name} and {b.name}: the summaries are the same')
 
 
-def speed(names):
-    one, two = data_set('one-core'), data_set('two-cores')
-    wall_1, cpu_1 = run(one, ['taskset', '-c', '0', *workflow(one, '--cores', '1')])
-    wall_2, cpu_2 = run(two, ['taskset', '-c', '0,1', *workflow(two, '--cores', '2')])
-    print(f'one core  {wall_1:.1f} s wall, {cpu_1:.1f} s CPU ({100 * cpu_1 / wall_1:.0f} %)\n'
-          f'two cores {wall_2:.1f} s wall, {cpu_2:.1f} s CPU ({100 * cpu_2 / wall_2:.0f} %)\n'
-          f'speed-up  {wall_1 / wall_2:.2f}; load of the machine at the end {os.getloadavg()[0]:.1f}', flush=True)
-    look_at(one, names)
-    compare(one, two, names)
+def told(what, wall, cpu):
+    print(f'{what:9} {wall:.1f} s wall, {cpu:.1f} s CPU ({100 * cpu / wall:.0f} %), load of the machine {os.getloadavg()[0]:.1f}', flush=True)
 
 
 def main():
     names = make_logs(OUT / 'logs')
     if options.speed:
-        speed(names)
+        one = data_set('one-core')
+        wall_1, cpu_1 = run(one, ['taskset', '-c', '0', *workflow(one, '--cores', '1')])
+        told('one core', wall_1, cpu_1)
     local = data_set('local')
-    run(local, workflow(local, '--cores', '2'), lambda: kill_process(local))
+    wall_2, cpu_2 = run(local, workflow(local, '--cores', '2'), lambda: kill_process(local))
+    told('two cores', wall_2, cpu_2)
     look_at_retry(local)
     look_at(local, names)
+    if options.speed:
+        print(f'speed-up  {wall_1 / wall_2:.2f}', flush=True)
+        compare(one, local, names)
     again = subprocess.run(workflow(local, '--cores', '2'), capture_output=True, text=True, env=ENVIRONMENT)
     expect('Nothing to be done' in again.stderr, 'local: a second run has nothing to do')
     if options.slurm:
         slurm = data_set('slurm')
         ENVIRONMENT['CI'] = 'true'  # Snakemake then asks for the state of jobs every second, not every ten
-        run(slurm, [SOURCES / 'scripts/slurm_here.sh', '--cpus', '2', *workflow(slurm, '--profile', SOURCES / 'workflows/profiles/slurm')],
-            lambda: cancel_job(slurm))
+        command = [SOURCES / 'scripts/slurm_here.sh', '--cpus', '2', *workflow(slurm, '--profile', SOURCES / 'workflows/profiles/slurm')]
+        told('slurm', *run(slurm, command, lambda: cancel_job(slurm)))
         look_at_retry(slurm)
         look_at(slurm, names)
         compare(local, slurm, names)
