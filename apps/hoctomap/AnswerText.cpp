@@ -30,16 +30,15 @@ void TextAnswer::node(std::string_view name, NodeId value) {
 void TextAnswer::flag(std::string_view name, bool value) {
   result_ += line(name, value ? "yes" : "no");
 }
-void TextAnswer::nodes(std::string_view, std::span<const NodeInRegion> values, const MapHierarchy& map) {
+void TextAnswer::nodes(std::string_view, std::span<const NodeInRegion> values) {
   if (values.empty()) {
     result_ += "no table or object in it\n";
     return;
   }
   TextTable table({"node", "label", "existence", "share"});
   for (const NodeInRegion& found : values) {
-    const MapNode& node = map.node(found.node);
-    table.add({std::to_string(found.node.value), escapedText(node.label().name),
-               fixedText(node.existence(), 3), fixedText(found.share, 3)});
+    table.add({std::to_string(found.node.value), escapedText(found.label.name), fixedText(found.existence, 3),
+               fixedText(found.share, 3)});
   }
   result_ += table.text();
 }
@@ -58,7 +57,7 @@ void CsvAnswer::node(std::string_view, NodeId value) {
 void CsvAnswer::flag(std::string_view, bool value) {
   rows_ += value ? ",1" : ",0";
 }
-void CsvAnswer::nodes(std::string_view, std::span<const NodeInRegion> values, const MapHierarchy&) {
+void CsvAnswer::nodes(std::string_view, std::span<const NodeInRegion> values) {
   rows_ += ',';
   for (std::size_t i = 0; i < values.size(); ++i) {
     if (i > 0) rows_ += ' ';
@@ -85,13 +84,12 @@ void JsonAnswer::flag(std::string_view name, bool value) {
 void JsonAnswer::none(std::string_view name) {
   object_[std::string(name)] = nullptr;
 }
-void JsonAnswer::nodes(std::string_view name, std::span<const NodeInRegion> values, const MapHierarchy& map) {
+void JsonAnswer::nodes(std::string_view name, std::span<const NodeInRegion> values) {
   auto list = nlohmann::ordered_json::array();
   for (const NodeInRegion& found : values) {
-    const MapNode& node = map.node(found.node);
     list.push_back({{"node", found.node.value},
-                    {"label", node.label().name},
-                    {"existence", node.existence()},
+                    {"label", found.label.name},
+                    {"existence", found.existence},
                     {"share", found.share}});
   }
   object_[std::string(name)] = std::move(list);

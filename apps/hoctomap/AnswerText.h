@@ -16,7 +16,7 @@ class TextAnswer final : public AnswerSink {
   void node(std::string_view name, NodeId value) override;
   void flag(std::string_view name, bool value) override;
   void none(std::string_view) override {}
-  void nodes(std::string_view name, std::span<const NodeInRegion> values, const MapHierarchy& map) override;
+  void nodes(std::string_view name, std::span<const NodeInRegion> values) override;
   [[nodiscard]] const std::string& result() const { return result_; }
 
  private:
@@ -33,7 +33,7 @@ class CsvAnswer final : public AnswerSink {
   void flag(std::string_view name, bool value) override;
   void none(std::string_view) override { rows_ += ','; }
   /// One field: `3:0.52 4:1`, id and share.
-  void nodes(std::string_view name, std::span<const NodeInRegion> values, const MapHierarchy& map) override;
+  void nodes(std::string_view name, std::span<const NodeInRegion> values) override;
 
  private:
   std::string& rows_;
@@ -49,7 +49,7 @@ class JsonAnswer final : public AnswerSink {
   void node(std::string_view name, NodeId value) override;
   void flag(std::string_view name, bool value) override;
   void none(std::string_view name) override;
-  void nodes(std::string_view name, std::span<const NodeInRegion> values, const MapHierarchy& map) override;
+  void nodes(std::string_view name, std::span<const NodeInRegion> values) override;
   [[nodiscard]] std::string result() const;
 
  private:

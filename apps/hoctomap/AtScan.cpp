@@ -11,10 +11,9 @@ void addAtScan(CLI::App& command, AtScan& at_scan, const std::string& name, cons
   command.add_option(name, at_scan, what)->type_name("K");
 }
 
-void noteOlderState(const std::string& map, const Manifest& manifest, const AtScan& at_scan) {
-  if (!at_scan || manifest.scans > *at_scan) return;
-  const std::string state =
-      manifest.scans == 0 ? "before the first scan" : "after scan " + std::to_string(manifest.scans - 1);
+void noteOlderState(const std::string& map, std::uint64_t scans, const AtScan& at_scan) {
+  if (!at_scan || scans > *at_scan) return;
+  const std::string state = scans == 0 ? "before the first scan" : "after scan " + std::to_string(scans - 1);
   std::cerr << "hoctomap: " << escapedText(map) << ": the newest state up to scan " << *at_scan << " is that "
             << state << std::endl;
 }

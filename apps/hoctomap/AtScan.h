@@ -6,8 +6,6 @@
 #include <optional>
 #include <string>
 
-#include "hoctomap/io/Manifest.h"
-
 namespace hoctomap {
 
 /// The state of a map that a reading command is asked for: after scan K, or the newest one.
@@ -18,6 +16,7 @@ void addAtScan(CLI::App& command, AtScan& at_scan, const std::string& name = "--
                const std::string& what = "the map as it was after scan K (of a kept snapshot)");
 
 /// Says on stderr when the state read is older than the one asked for, because only some are kept.
-void noteOlderState(const std::string& map, const Manifest& manifest, const AtScan& at_scan);
+/// @param scans of the state read (Manifest::scans)
+void noteOlderState(const std::string& map, std::uint64_t scans, const AtScan& at_scan);
 
 }  // namespace hoctomap

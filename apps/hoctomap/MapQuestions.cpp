@@ -119,7 +119,7 @@ void MapQuestions::ask(const QuestionForm& form, std::span<const double> numbers
     case QuestionKind::unknown:
       return answer.number("unknown_share", query_.unknownShare(boxOf(numbers), options_.step));
     case QuestionKind::objects:
-      return answer.nodes("nodes", query_.nodesIn(boxOf(numbers)), map_);
+      return answer.nodes("nodes", query_.nodesIn(boxOf(numbers)));
   }
 }
 
@@ -162,10 +162,11 @@ void MapQuestions::tellCollision(std::optional<NodeId> node, AnswerSink& answer)
 
 void MapQuestions::tellNode(std::optional<NodeId> node, AnswerSink& answer) const {
   if (node) {
-    const MapNode& found = map_.node(*node);
+    const auto& places = map_->places();
+    const auto found = std::ranges::lower_bound(places, *node, {}, &NodePlace::id);
     answer.node("node", *node);
-    answer.text("label", found.label().name);
-    answer.number("existence", found.existence());
+    answer.text("label", map_->label(static_cast<std::size_t>(found - places.begin())).name);
+    answer.number("existence", found->existence);
   } else {
     for (const auto name : {"node", "label", "existence"}) answer.none(name);
   }

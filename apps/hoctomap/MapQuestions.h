@@ -2,8 +2,10 @@
 #pragma once
 
 #include <cstdint>
+#include <memory>
 #include <span>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include "hoctomap/query/HierarchyQuery.h"
@@ -33,8 +35,7 @@ class AnswerSink {
   virtual void flag(std::string_view name, bool value) = 0;
   virtual void none(std::string_view name) = 0;
   /// Nodes in a region, with their labels.
-  virtual void nodes(std::string_view name, std::span<const NodeInRegion> values,
-                     const MapHierarchy& map) = 0;
+  virtual void nodes(std::string_view name, std::span<const NodeInRegion> values) = 0;
 };
 
 struct QuestionOptions {
@@ -46,8 +47,8 @@ struct QuestionOptions {
 /// Questions in numbers, answered field by field.
 class MapQuestions {
  public:
-  MapQuestions(const MapHierarchy& map, const QuestionOptions& options)
-      : map_(map), options_(options), query_(map, options.query) {}
+  MapQuestions(std::shared_ptr<const NodeSource> map, const QuestionOptions& options)
+      : map_(std::move(map)), options_(options), query_(map_, options.query) {}
 
   /// @throws std::invalid_argument if the numbers make no question of this kind.
   void ask(const QuestionForm& form, std::span<const double> numbers, AnswerSink& answer) const;
@@ -59,7 +60,7 @@ class MapQuestions {
   void tellCollision(std::optional<NodeId> node, AnswerSink& answer) const;
   void tellNode(std::optional<NodeId> node, AnswerSink& answer) const;
 
-  const MapHierarchy& map_;
+  std::shared_ptr<const NodeSource> map_;
   QuestionOptions options_;
   HierarchyQuery query_;
 };

@@ -32,7 +32,7 @@ struct DiffOptions {
 StoredMap readSide(const std::string& path, const AtScan& own, const AtScan& both) {
   const AtScan at_scan = own ? own : both;
   StoredMap map = readMap(path, {.at_scan = at_scan});
-  noteOlderState(path, map.manifest, at_scan);
+  noteOlderState(path, map.manifest.scans, at_scan);
   return map;
 }
 

@@ -15,6 +15,7 @@
 #include "hoctomap/io/MapReader.h"
 #include "hoctomap/io/MergedTree.h"
 #include "hoctomap/io/OctreeFile.h"
+#include "hoctomap/io/OpenMap.h"
 
 namespace hoctomap {
 
@@ -38,11 +39,15 @@ bool isOctree(Format format) {
   return format == Format::bt || format == Format::ot;
 }
 
-void exportOneNode(const ExportOptions& options, const Manifest& manifest) {
-  const NodeRecord* node = manifest.find(NodeId{*options.node});
-  if (node == nullptr) throw MapError(options.map + ": there is no node " + std::to_string(*options.node));
+/// Reads no more of the map than this node.
+int exportOneNode(const ExportOptions& options) {
+  const auto [scans, node] = findNode(options.map, NodeId{*options.node}, options.at_scan);
+  noteOlderState(options.map, scans, options.at_scan);
+  if (!node) throw MapError(options.map + ": there is no node " + std::to_string(*options.node));
   const OctreeFormat format = options.format == Format::bt ? OctreeFormat::bt : OctreeFormat::ot;
   replaceFile(options.output, octreeBytes(options.map, *node, format));
+  std::cout << "exported 1 node to " << options.output << std::endl;
+  return 0;
 }
 
 /// The scene is written by the helper, which knows MRPT.
@@ -83,10 +88,6 @@ Damages exportHierarchy(const ExportOptions& options) {
 }
 
 Damages exportInto(const ExportOptions& options, const Manifest& manifest) {
-  if (options.node) {
-    exportOneNode(options, manifest);
-    return {};
-  }
   if (options.format == Format::csv) {
     replaceFile(options.output, objectTable(manifest));
     return {};
@@ -103,12 +104,13 @@ Damages exportInto(const ExportOptions& options, const Manifest& manifest) {
 int exportMap(const ExportOptions& options) {
   if ((options.node || options.merged) && !isOctree(options.format))
     throw ConfigError("--node and --merged are for --format bt and ot");
+  if (options.node) return exportOneNode(options);
   const Manifest manifest = readManifest(options.map, options.at_scan);
-  noteOlderState(options.map, manifest, options.at_scan);
+  noteOlderState(options.map, manifest.scans, options.at_scan);
   const Damages damage = exportInto(options, manifest);
   for (const Damage& d : damage)
     std::cout << "damaged  " << escapedText(d.path) << "  " << escapedText(d.what) << "\n";
-  const std::size_t nodes = options.node ? 1 : manifest.nodes.size() - damage.size();
+  const std::size_t nodes = manifest.nodes.size() - damage.size();
   std::cout << "exported " << nodes << (nodes == 1 ? " node to " : " nodes to ") << options.output
             << std::endl;
   if (damage.empty()) return 0;

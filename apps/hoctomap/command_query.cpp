@@ -12,7 +12,7 @@
 #include "QuestionBatch.h"
 #include "hoctomap/geometry/Errors.h"
 #include "hoctomap/io/EscapedText.h"
-#include "hoctomap/io/MapReader.h"
+#include "hoctomap/io/OpenMap.h"
 
 namespace hoctomap {
 
@@ -57,9 +57,9 @@ int query(const QueryOptions& options) {
         "query wants one question: --point, --ray, --box, --sphere, --distance, --unknown, "
         "--objects or --batch FILE");
   }
-  const StoredMap map = readMap(options.map, {.at_scan = options.at_scan});
-  noteOlderState(options.map, map.manifest, options.at_scan);
-  const MapQuestions questions(map.hierarchy, options.how);
+  const auto map = std::make_shared<const OpenMap>(options.map, options.at_scan);
+  noteOlderState(options.map, map->scans(), options.at_scan);
+  const MapQuestions questions(map, options.how);
   if (!options.batch.empty()) {
     answerBatch(questions, formOf(options.kind), options.batch, options.json);
     return 0;

@@ -4,6 +4,7 @@
 #include "AtScan.h"
 #include "Command.h"
 #include "hoctomap/io/ChildProcess.h"
+#include "hoctomap/io/Manifest.h"
 
 namespace hoctomap {
 
@@ -24,7 +25,7 @@ int render(const RenderOptions& options) {
   if (!options.view.empty()) arguments.insert(arguments.end(), {"--view", options.view});
   for (const std::string& label : options.hidden) arguments.insert(arguments.end(), {"--hide", label});
   if (options.at_scan) {
-    noteOlderState(options.map, readManifest(options.map, options.at_scan), options.at_scan);
+    noteOlderState(options.map, readManifest(options.map, options.at_scan).scans, options.at_scan);
     arguments.insert(arguments.end(), {"--at-scan", std::to_string(*options.at_scan)});
   }
   return runHelper(arguments);

@@ -49,7 +49,8 @@ std::string page(const ReportOptions& options) {
     throw ConfigError("a report is of one map; --compare shows two, --experiments folders of experiments");
   }
   if (options.at_scan) {
-    noteOlderState(options.folders[0], readManifest(options.folders[0], options.at_scan), options.at_scan);
+    noteOlderState(options.folders[0], readManifest(options.folders[0], options.at_scan).scans,
+                   options.at_scan);
   }
   return mapReport(options.folders[0], options.at_scan);
 }

@@ -12,4 +12,8 @@ constexpr std::string_view kOwnHashMark = "# sha256: ";
 /// files is to be noticed itself when it is cut or a bit of it is flipped.
 [[nodiscard]] std::string ownHashLine(std::string_view rest);
 
+/// Whether a manifest's text has such a line and it is not that of the rest. Maps of other programs need not
+/// have it, nor have those that a YAML writer has written again.
+[[nodiscard]] bool hasWrongOwnHash(std::string_view text);
+
 }  // namespace hoctomap

@@ -2,14 +2,15 @@
 // Reading `hierarchy.yaml`. With yaml-cpp: `mrpt::containers::yaml` reads what we write, but of a damaged
 // text it returns a part, prints to stderr, or crashes.
 #include <algorithm>
-#include <cctype>
 #include <cmath>
 #include <limits>
 #include <string_view>
 
 #include "ManifestHash.h"
+#include "ManifestHead.h"
 #include "ManifestTree.h"
 #include "PoseText.h"
+#include "RecordChecks.h"
 #include "YamlLimits.h"
 #include "YamlSection.h"
 #include "hoctomap/existence/ExistenceFilter.h"
@@ -28,9 +29,7 @@ NodeId readId(const YamlSection& section) {
 
 std::string readPath(const YamlSection& section) {
   std::string path = section.text();
-  const auto folders = "/" + path + "/";
-  const bool control = std::any_of(path.begin(), path.end(), [](unsigned char c) { return std::iscntrl(c); });
-  if (path.empty() || path.front() == '/' || folders.find("/../") != std::string::npos || control) {
+  if (!staysInside(path)) {
     section.refuse("\"" + escapedText(path, 200) + "\" leads out of the map directory");
   }
   return path;
@@ -38,9 +37,7 @@ std::string readPath(const YamlSection& section) {
 
 FileRecord readFile(const YamlSection& section) {
   FileRecord file{readPath(section["path"]), section["bytes"].count(), section["sha256"].text()};
-  if (file.sha256.size() != 64 || file.sha256.find_first_not_of("0123456789abcdef") != std::string::npos) {
-    section["sha256"].refuse("is no SHA-256");
-  }
+  if (!isSha256(file.sha256)) section["sha256"].refuse("is no SHA-256");
   return file;
 }
 
@@ -165,17 +162,15 @@ void readVersion(const YamlSection& document) {
                                     (version > kMapFormatVersion ? "; use a newer program" : ""));
 }
 
-/// Maps of other programs need not have it, nor have those that a YAML writer has written again.
 void checkOwnHash(std::string_view text, const std::string& name) {
-  if (!text.starts_with(kOwnHashMark)) return;
-  const std::size_t rest = std::min(text.find('\n'), text.size() - 1) + 1;
-  if (text.substr(0, rest) != ownHashLine(text.substr(rest)))
+  if (hasWrongOwnHash(text))
     throw MapError(name +
                    ": the hash in its first line is not that of what follows: the file is damaged (who "
                    "edits it by hand takes that line out)");
 }
 
-Manifest readDocument(const YamlSection& document, const std::string& name) {
+/// All but the nodes.
+Manifest readHead(const YamlSection& document) {
   readVersion(document);
   Manifest manifest;
   manifest.generator = document["generator"].text();
@@ -194,6 +189,7 @@ Manifest readDocument(const YamlSection& document, const std::string& name) {
   if (files.has("scans")) manifest.scan_table = readFile(files["scans"]);
   if (files.has("events_before_end")) manifest.events_before_end = readFile(files["events_before_end"]);
   if (files.has("seams")) manifest.seams = readFile(files["seams"]);
+  if (files.has("index")) manifest.index = readFile(files["index"]);
   if (files.has("scene")) manifest.scene = readFile(files["scene"]);
   if (document.has("sensor")) {
     const YamlSection sensor = document["sensor"];
@@ -204,6 +200,11 @@ Manifest readDocument(const YamlSection& document, const std::string& name) {
     manifest.motions = MotionsTaken{motions["scan"].count(), motions["time"].number(),
                                     motions["after_scan"].count(), motions["told_sha256"].text()};
   }
+  return manifest;
+}
+
+Manifest readDocument(const YamlSection& document, const std::string& name) {
+  Manifest manifest = readHead(document);
   manifest.nodes = orderedTree(readNodes(document["nodes"], NodeList::tree, name), name);
   manifest.removed = readNodes(document["removed"], NodeList::removed, name);
   if (document.has("waiting")) manifest.waiting = readNodes(document["waiting"], NodeList::waiting, name);
@@ -211,18 +212,34 @@ Manifest readDocument(const YamlSection& document, const std::string& name) {
   return manifest;
 }
 
-}  // namespace
-
-Manifest parseManifest(const std::string& text, const std::string& name) {
+template <class Read>
+Manifest parse(const std::string& text, const std::string& name, const Read& read) {
   try {
     requireSimpleYaml(text, name);
-    const YamlSection document(YAML::Load(text), name);
-    Manifest manifest = readDocument(document, name);
-    checkOwnHash(text, name);
-    return manifest;
+    return read(YamlSection(YAML::Load(text), name));
   } catch (const YAML::Exception& error) {
     throw MapError(name + ": line " + std::to_string(error.mark.line + 1) + ": " + escapedText(error.msg));
   }
+}
+
+}  // namespace
+
+bool hasWrongOwnHash(std::string_view text) {
+  if (!text.starts_with(kOwnHashMark)) return false;
+  const std::size_t rest = std::min(text.find('\n'), text.size() - 1) + 1;
+  return text.substr(0, rest) != ownHashLine(text.substr(rest));
+}
+
+Manifest parseManifest(const std::string& text, const std::string& name) {
+  return parse(text, name, [&](const YamlSection& document) {
+    Manifest manifest = readDocument(document, name);
+    checkOwnHash(text, name);
+    return manifest;
+  });
+}
+
+Manifest parseManifestHead(const std::string& text, const std::string& name) {
+  return parse(text, name, readHead);
 }
 
 }  // namespace hoctomap

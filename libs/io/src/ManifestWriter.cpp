@@ -4,6 +4,7 @@
 #include <span>
 
 #include "ManifestHash.h"
+#include "ManifestHead.h"
 #include "NumberText.h"
 #include "PoseText.h"
 #include "hoctomap/io/Manifest.h"
@@ -93,7 +94,9 @@ std::string ownHashLine(std::string_view rest) {
   return std::string(kOwnHashMark) + sha256Hex(rest) + "\n";
 }
 
-std::string toYaml(const Manifest& manifest) {
+namespace {
+
+std::string headText(const Manifest& manifest) {
   std::string text = "# Hierarchy of octree maps; docs/map-format.md of hoctomap explains every key.\n";
   text += "format_version: " + std::to_string(manifest.format_version) + "\n";
   text += "generator: " + yamlText(manifest.generator) + "\n";
@@ -112,6 +115,7 @@ std::string toYaml(const Manifest& manifest) {
     text += "  events_before_end: " + fileText(*manifest.events_before_end) + "\n";
   }
   if (manifest.seams) text += "  seams: " + fileText(*manifest.seams) + "\n";
+  if (manifest.index) text += "  index: " + fileText(*manifest.index) + "\n";
   if (manifest.scene) text += "  scene: " + fileText(*manifest.scene) + "\n";
   if (manifest.sensor) {
     text += "sensor: {still_since: " + std::to_string(manifest.sensor->since_scan) +
@@ -123,9 +127,23 @@ std::string toYaml(const Manifest& manifest) {
             ", after_scan: " + std::to_string(manifest.motions->after_scan) +
             ", told_sha256: " + yamlText(manifest.motions->told_sha256) + "}\n";
   }
-  text += nodesText("nodes", manifest.nodes) + nodesText("removed", manifest.removed) +
-          nodesText("waiting", manifest.waiting);
+  return text;
+}
+
+}  // namespace
+
+std::string manifestText(const Manifest& manifest, const std::string& nodes_text) {
+  const std::string text = headText(manifest) + nodes_text;
   return ownHashLine(text) + text;
+}
+
+std::string manifestNodesText(const Manifest& manifest) {
+  return nodesText("nodes", manifest.nodes) + nodesText("removed", manifest.removed) +
+         nodesText("waiting", manifest.waiting);
+}
+
+std::string toYaml(const Manifest& manifest) {
+  return manifestText(manifest, manifestNodesText(manifest));
 }
 
 }  // namespace hoctomap

@@ -3,11 +3,14 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <numbers>
 #include <utility>
 
+#include "ManifestHead.h"
 #include "MapNames.h"
 #include "MapSession.h"
+#include "NodeIndex.h"
 #include "NumberText.h"
 #include "PreviousMap.h"
 #include "SeamsFile.h"
@@ -119,13 +122,15 @@ void MapDirectory::Session::commit(const MapState& state) {
   manifest.events = events_.write(disk_, directory_);
   manifest.events_before_end = events_before_end_;
   manifest.seams = writeSeams(state, manifest.edits);
+  const std::string nodes_text = manifestNodesText(manifest);
+  manifest.index = writeIndex(state, manifest, nodes_text);
   manifest.existence = existence_.write(disk_, directory_);
   manifest.scan_table = scans_.write(disk_, directory_);
   static_cast<void>(timing_.write(disk_, directory_));
   disk_.syncDirectory(directory_ / kNodesFolder);
   disk_.syncDirectory(directory_);
 
-  commitManifest(manifest, state.keep && state.scans > 0);
+  commitManifest(manifest, nodes_text, state.keep && state.scans > 0);
 
   removeUnnamedFiles();
 }
@@ -137,6 +142,19 @@ std::optional<FileRecord> MapDirectory::Session::writeSeams(const MapState& stat
   const FileRecord record{std::string(kNodesFolder) + "/" + seamsFileName(state.scans, edits), bytes.size(),
                           sha256Hex(bytes)};
   const bool is_there = committed_ && committed_->seams == record;
+  if (!is_there) disk_.replace(directory_ / record.path, bytes);
+  return record;
+}
+
+FileRecord MapDirectory::Session::writeIndex(const MapState& state, const Manifest& manifest,
+                                             const std::string& nodes_text) {
+  std::map<NodeId, VoxelExtent> extents;
+  for (const NodeRecord& node : manifest.nodes)
+    extents[node.id] = node_files_.extent(state.hierarchy.node(node.id));
+  const std::string bytes = nodeIndexBytes(manifest, nodes_text, extents);
+  const std::string hash = sha256Hex(bytes);
+  const FileRecord record{std::string(kNodesFolder) + "/" + indexFileName(hash), bytes.size(), hash};
+  const bool is_there = committed_ && committed_->index == record;
   if (!is_there) disk_.replace(directory_ / record.path, bytes);
   return record;
 }
@@ -191,8 +209,9 @@ Manifest MapDirectory::Session::describe(const MapState& state) {
   return manifest;
 }
 
-void MapDirectory::Session::commitManifest(const Manifest& manifest, bool keep) {
-  const std::string text = toYaml(manifest);
+void MapDirectory::Session::commitManifest(const Manifest& manifest, const std::string& nodes_text,
+                                           bool keep) {
+  const std::string text = manifestText(manifest, nodes_text);
   if (keep) {
     disk_.replace(directory_ / snapshotName(manifest.scans - 1), text);
     for (const FileRecord& file : manifest.files()) kept_files_.insert(file.path);
@@ -212,7 +231,8 @@ void MapDirectory::Session::removeUnnamedFiles() {
     std::set<std::string> named = kept_files_;
     for (const FileRecord& file : committed_->files()) named.insert(file.path);
     for (const std::string& name : listDirectory(directory_ / kNodesFolder)) {
-      const bool ours = isNodeFileName(name) || isSeamsFileName(name) || isOurTemporary(name);
+      const bool ours =
+          isNodeFileName(name) || isSeamsFileName(name) || isIndexFileName(name) || isOurTemporary(name);
       const std::string path = std::string(kNodesFolder) + "/" + name;
       if (ours && !named.contains(path)) disk_.remove(directory_ / path);
     }

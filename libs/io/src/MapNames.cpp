@@ -13,6 +13,9 @@ namespace {
 constexpr std::size_t kDigits = 6;  // larger numbers take more
 constexpr std::string_view kSnapshotBegin = "hierarchy-";
 constexpr std::string_view kSnapshotEnd = ".yaml";
+constexpr std::string_view kIndexBegin = "index-";
+constexpr std::string_view kIndexEnd = ".bin";
+constexpr std::size_t kIndexDigits = 12;
 
 bool isPaddedNumber(std::string_view text) {
   return text.size() >= kDigits && (text.size() == kDigits || text.front() != '0') && parseCount(text);
@@ -54,6 +57,18 @@ bool isSeamsFileName(const std::string& name) {
   if (!text.starts_with(kBegin) || !text.ends_with(kEnd) || text.size() < kBegin.size() + kEnd.size())
     return false;
   return isVersion(text.substr(kBegin.size(), text.size() - kBegin.size() - kEnd.size()));
+}
+
+std::string indexFileName(const std::string& sha256) {
+  return std::string(kIndexBegin) + sha256.substr(0, kIndexDigits) + std::string(kIndexEnd);
+}
+
+bool isIndexFileName(const std::string& name) {
+  const std::string_view text = name;
+  return text.size() == kIndexBegin.size() + kIndexDigits + kIndexEnd.size() &&
+         text.starts_with(kIndexBegin) && text.ends_with(kIndexEnd) &&
+         text.substr(kIndexBegin.size(), kIndexDigits).find_first_not_of("0123456789abcdef") ==
+             std::string_view::npos;
 }
 
 std::string snapshotName(std::uint64_t scan) {

@@ -27,7 +27,10 @@ inline constexpr const char* kPreviousFolder = "previous";
 /// `NNNNNN-VVVVVV`, without extension; of what was edited by hand `NNNNNN-VVVVVV-E`.
 [[nodiscard]] std::string nodeFileStem(NodeId id, std::uint64_t version, std::uint64_t edition);
 [[nodiscard]] std::string seamsFileName(std::uint64_t scans, std::uint64_t edits);
+/// Named by its content: the same scan may be the last of several states.
+[[nodiscard]] std::string indexFileName(const std::string& sha256);
 /// Whether a file of this name in `nodes/` can only be ours.
+[[nodiscard]] bool isIndexFileName(const std::string& name);
 [[nodiscard]] bool isSeamsFileName(const std::string& name);
 [[nodiscard]] bool isNodeFileName(const std::string& name);
 

@@ -91,6 +91,7 @@ std::vector<FileRecord> Manifest::files() const {
   std::vector<FileRecord> all{config, events, existence};
   if (scan_table) all.push_back(*scan_table);
   if (seams) all.push_back(*seams);
+  if (index) all.push_back(*index);
   if (scene) all.push_back(*scene);
   for (const auto* list : {&nodes, &removed, &waiting}) {
     for (const NodeRecord& node : *list) {
@@ -110,17 +111,9 @@ const NodeRecord* Manifest::find(NodeId id) const {
 Manifest readManifest(const std::filesystem::path& directory, std::optional<std::uint64_t> at_scan) {
   requireMap(directory);
   Manifest current = readManifestFile(directory / kManifestName);
-  if (!at_scan || current.scans <= *at_scan + 1) return current;
-  std::optional<std::uint64_t> newest;
-  for (const std::uint64_t scan : snapshotScans(directory)) {
-    // A snapshot beyond the map itself stems from a commit that never was.
-    if (scan <= *at_scan && scan < current.scans) newest = scan;
-  }
-  if (!newest) {
-    throw MapError(directory.string() + ": no state after scan " + std::to_string(*at_scan) +
-                   " or before was kept (build --snapshot-every)");
-  }
-  Manifest kept = readManifestFile(directory / snapshotName(*newest));
+  const auto snapshot = snapshotAt(directory, current.scans, at_scan);
+  if (!snapshot) return current;
+  Manifest kept = readManifestFile(directory / snapshotName(*snapshot));
   endLog(kept);
   return kept;
 }

@@ -41,10 +41,12 @@ class MapDirectory::Session {
   // Committing.
   void makeWay();
   [[nodiscard]] std::optional<FileRecord> writeSeams(const MapState& state, std::uint64_t edits);
+  [[nodiscard]] FileRecord writeIndex(const MapState& state, const Manifest& manifest,
+                                      const std::string& nodes_text);
   [[nodiscard]] std::uint64_t editsBefore() const { return committed_ ? committed_->edits : 0; }
   void writeNodes(const MapState& state);
   [[nodiscard]] Manifest describe(const MapState& state);
-  void commitManifest(const Manifest& manifest, bool keep);
+  void commitManifest(const Manifest& manifest, const std::string& nodes_text, bool keep);
   void removeUnnamedFiles();
 
   std::filesystem::path directory_;

@@ -134,7 +134,7 @@ void MapDirectory::Session::resume() {
   for (const std::uint64_t scan : snapshotScans(directory_)) {
     if (scan >= manifest.scans) continue;
     const auto file = directory_ / snapshotName(scan);
-    for (const FileRecord& kept : parseManifest(readWholeFile(file), file.string()).files()) {
+    for (const FileRecord& kept : readManifestFile(file).files()) {
       kept_files_.insert(kept.path);
     }
   }

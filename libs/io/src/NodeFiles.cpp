@@ -18,7 +18,7 @@ namespace hoctomap {
 
 void NodeFiles::know(const NodeRecord& record) {
   known_.insert_or_assign({record.id, record.version, record.edition},
-                          Contents{record.box_center, record.box_half_extents, record.voxels,
+                          Contents{record.box_center, record.box_half_extents, record.voxels, std::nullopt,
                                    record.memory_bytes, record.ot, record.bt});
 }
 
@@ -35,7 +35,8 @@ NodeFiles::Made NodeFiles::make(const MapNode& node) {
     contents.box_center = box.center();
     contents.box_half_extents = (0.5 * box.sizes()).array() + node.map().resolution();
   }
-  contents.voxels = node.map().countVoxels();
+  contents.extent = node.map().extent();
+  contents.voxels = contents.extent->voxels;
   contents.memory_bytes = node.map().tree().memoryUsage();
   contents.ot = recordOf(".ot", made.ot);
   contents.bt = recordOf(".bt", made.bt);
@@ -103,6 +104,12 @@ NodeRecord NodeFiles::record(const MapNode& node, const Pose& world_T_node) cons
   record.ot = contents.ot;
   record.bt = contents.bt;
   return record;
+}
+
+const VoxelExtent& NodeFiles::extent(const MapNode& node) {
+  Contents& contents = known_.at(keyOf(node));
+  if (!contents.extent) contents.extent = node.map().extent();
+  return *contents.extent;
 }
 
 }  // namespace hoctomap

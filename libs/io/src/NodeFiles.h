@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <filesystem>
 #include <map>
+#include <optional>
 #include <span>
 #include <string>
 #include <tuple>
@@ -31,12 +32,16 @@ class NodeFiles {
   /// The node as the manifest describes it. Its files have been written.
   [[nodiscard]] NodeRecord record(const MapNode& node, const Pose& world_T_node) const;
 
+  /// Of the node's octree. Its files have been written.
+  [[nodiscard]] const VoxelExtent& extent(const MapNode& node);
+
  private:
   /// Everything that follows from the octree alone.
   struct Contents {
     Eigen::Vector3d box_center = Eigen::Vector3d::Zero();
     Eigen::Vector3d box_half_extents = Eigen::Vector3d::Zero();
     VoxelCounts voxels;
+    std::optional<VoxelExtent> extent;  ///< not known of files that were there already
     std::uint64_t memory_bytes = 0;
     FileRecord ot;
     FileRecord bt;

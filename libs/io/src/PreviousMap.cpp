@@ -22,6 +22,7 @@ void forEachFile(Manifest& manifest, const std::function<void(FileRecord&)>& vis
   if (manifest.events_before_end) visit(*manifest.events_before_end);
   if (manifest.scan_table) visit(*manifest.scan_table);
   if (manifest.seams) visit(*manifest.seams);
+  if (manifest.index) visit(*manifest.index);
   if (manifest.scene) visit(*manifest.scene);
   for (auto* list : {&manifest.nodes, &manifest.removed, &manifest.waiting}) {
     for (NodeRecord& node : *list) {
@@ -52,6 +53,7 @@ void commitNames(const Disk& disk, const std::filesystem::path& directory, const
 
 void setAside(const Disk& disk, const std::filesystem::path& directory, const Manifest& manifest) {
   Manifest aside = manifest;
+  aside.index.reset();  // it knows the files by their old names
   disk.makeDirectory(directory / kNodesFolder);
   disk.makeDirectory(directory / kPreviousFolder);
   forEachFile(aside, [&](FileRecord& file) {
@@ -76,7 +78,9 @@ Manifest bringBack(const Disk& disk, const std::filesystem::path& directory, Man
     changed = true;
     const std::string name = file.path.substr(kPrefix.size());
     rename(disk, directory, file,
-           isNodeFileName(name) || isSeamsFileName(name) ? std::string(kNodesFolder) + "/" + name : name);
+           isNodeFileName(name) || isSeamsFileName(name) || isIndexFileName(name)
+               ? std::string(kNodesFolder) + "/" + name
+               : name);
   });
   if (changed) commitNames(disk, directory, manifest);
   return manifest;
@@ -89,8 +93,8 @@ void removePrevious(const Disk& disk, const std::filesystem::path& directory, co
   }
   const std::set<std::string> fixed{kConfigName, kEventsName, kExistenceName, kScansName, kSceneName};
   for (const std::string& name : listDirectory(directory / kPreviousFolder)) {
-    const bool ours =
-        fixed.contains(name) || isNodeFileName(name) || isSeamsFileName(name) || isOurTemporary(name);
+    const bool ours = fixed.contains(name) || isNodeFileName(name) || isSeamsFileName(name) ||
+                      isIndexFileName(name) || isOurTemporary(name);
     if (ours && !named.contains(kPrefix + name)) disk.remove(directory / kPreviousFolder / name);
   }
   std::error_code not_empty;  // somebody else's file in it: stays

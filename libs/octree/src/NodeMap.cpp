@@ -177,13 +177,22 @@ void NodeMap::collectOccupied() const {
   occupied_valid_ = true;
 }
 
-VoxelCounts NodeMap::countVoxels() const {
-  VoxelCounts counts;
+VoxelExtent NodeMap::extent() const {
+  VoxelExtent extent;
+  const double resolution = tree_->getResolution();
+  const double half_edge = std::ldexp(1.0, static_cast<int>(tree_->getTreeDepth()) - 1);  // of the whole tree
   for (auto leaf = tree_->begin_leafs(); leaf != tree_->end_leafs(); ++leaf) {
     const auto edge = voxelsPerEdge(*tree_, leaf.getDepth());
-    (tree_->isNodeOccupied(*leaf) ? counts.occupied : counts.free) += edge * edge * edge;
+    const octomap::OcTreeKey first = leaf.getIndexKey();  // of the leaf's lowest voxel
+    const Eigen::Array3d low = Eigen::Array3d(first[0], first[1], first[2]) - half_edge;
+    const Eigen::AlignedBox3d cube(resolution * low.matrix(),
+                                   resolution * (low + static_cast<double>(edge)).matrix());
+    const bool occupied = tree_->isNodeOccupied(*leaf);
+    extent.known.extend(cube);
+    if (occupied) extent.occupied.extend(cube);
+    (occupied ? extent.voxels.occupied : extent.voxels.free) += edge * edge * edge;
   }
-  return counts;
+  return extent;
 }
 
 }  // namespace hoctomap

@@ -15,29 +15,19 @@ namespace {
 
 /// A node as a surface in the result's world.
 struct Surface {
-  const MapNode* node;
-  Obb box;
+  Surface(const MapNode& node, const Eigen::Isometry3d& world_T_node)
+      : voxels(inWorld(node.map().occupiedVoxels(), world_T_node)), tree(voxels) {}
+
   PointCloud voxels;
   VoxelTree tree;
-};
 
-std::vector<Surface> surfacesOf(const MapHierarchy& map, const Pose& world_T_map) {
-  std::vector<Surface> surfaces;
-  for (const NodeId id : map.preorder()) {
-    const MapNode& node = map.node(id);
-    if (id == kRootId || node.map().occupiedVoxels().empty()) continue;
-    const Eigen::Isometry3d world_T_node = toIsometry(world_T_map + map.world_T_node(id));
-    Obb box = map.box(id);
-    box.world_T_frame = toIsometry(world_T_map) * box.world_T_frame;
-    PointCloud voxels;
-    for (const auto& voxel : node.map().occupiedVoxels()) {
-      voxels.push_back((world_T_node * voxel.cast<double>()).cast<float>());
-    }
-    VoxelTree tree(voxels);
-    surfaces.push_back({&node, std::move(box), std::move(voxels), std::move(tree)});
+ private:
+  static PointCloud inWorld(const PointCloud& node_points, const Eigen::Isometry3d& world_T_node) {
+    PointCloud points;
+    for (const auto& p : node_points) points.push_back((world_T_node * p.cast<double>()).cast<float>());
+    return points;
   }
-  return surfaces;
-}
+};
 
 /// Share of the voxels of `a` that lie on `b`.
 double shareOn(const Surface& a, const Surface& b, double near) {
@@ -46,12 +36,8 @@ double shareOn(const Surface& a, const Surface& b, double near) {
   return static_cast<double>(count) / static_cast<double>(a.voxels.size());
 }
 
-bool isSame(const Surface& a, const Surface& b, const MergeConfig& config) {
-  const double resolution = a.node->map().resolution();
-  if (a.node->label() != b.node->label() || b.node->map().resolution() != resolution) return false;
-  if (!intersects(a.box, b.box)) return false;
-  const double near = config.near + resolution;
-  return std::max(shareOn(a, b, near), shareOn(b, a, near)) >= config.overlap;
+bool isAlike(const MapNode& a, const MapNode& b) {
+  return a.label() == b.label() && a.map().resolution() == b.map().resolution();
 }
 
 bool isAtOrBelow(const MapHierarchy& map, NodeId id, NodeId above) {
@@ -96,11 +82,32 @@ class Merger {
 };
 
 Merger::Same Merger::findSame(const MergePart& part) const {
-  const std::vector<Surface> known = surfacesOf(merged_.hierarchy, Pose());
+  const MapHierarchy& map = merged_.hierarchy;
+  std::map<NodeId, std::size_t> order;  // of the result's nodes: parents first
+  for (const NodeId id : map.preorder()) order.emplace(id, order.size());
+  std::map<NodeId, Surface> known;  // those that were compared
   Same same;
-  for (const Surface& surface : surfacesOf(part.hierarchy, part.world_T_map)) {
-    for (const Surface& candidate : known) {
-      if (isSame(surface, candidate, config_)) same[surface.node->id()].push_back(candidate.node->id());
+  for (const NodeId from : part.hierarchy.preorder()) {
+    const MapNode& node = part.hierarchy.node(from);
+    if (from == kRootId || node.map().occupiedVoxels().empty()) continue;
+    Obb box = part.hierarchy.box(from);
+    box.world_T_frame = toIsometry(part.world_T_map) * box.world_T_frame;
+    std::vector<NodeId> candidates = map.idsNear(worldBounds(box));
+    std::erase_if(candidates, [&](NodeId id) {
+      return id == kRootId || !isAlike(map.node(id), node) || !intersects(map.box(id), box);
+    });
+    if (candidates.empty()) continue;
+    std::ranges::sort(candidates, {}, [&](NodeId id) { return order.at(id); });
+    const Surface surface(node, toIsometry(part.world_T_map + part.hierarchy.world_T_node(from)));
+    const double near = config_.near + node.map().resolution();
+    for (const NodeId id : candidates) {
+      const auto at = known.find(id);
+      const Surface& other =
+          at != known.end()
+              ? at->second
+              : known.try_emplace(id, map.node(id), toIsometry(map.world_T_node(id))).first->second;
+      if (std::max(shareOn(surface, other, near), shareOn(other, surface, near)) >= config_.overlap)
+        same[from].push_back(id);
     }
   }
   return same;

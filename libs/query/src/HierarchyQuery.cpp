@@ -15,52 +15,84 @@ namespace hoctomap {
 
 namespace {
 
-std::vector<QueryNode> nodesInOrder(const MapHierarchy& map, const QueryConfig& config) {
-  std::vector<QueryNode> nodes;
-  for (const NodeId id : map.ids()) {
-    QueryNode node(map, id);
-    if (node.existence >= config.min_existence && !node.known.isEmpty()) nodes.push_back(std::move(node));
+std::vector<std::size_t> placesInOrder(const std::vector<NodePlace>& places, const QueryConfig& config) {
+  std::vector<std::size_t> order;
+  for (std::size_t i = 0; i < places.size(); ++i) {
+    if (places[i].existence >= config.min_existence && !places[i].extent.known.isEmpty()) order.push_back(i);
   }
   // Finer ones decide, of equally fine ones the deeper.
-  std::stable_sort(nodes.begin(), nodes.end(), [](const QueryNode& a, const QueryNode& b) {
+  std::sort(order.begin(), order.end(), [&](std::size_t i, std::size_t j) {
+    const NodePlace& a = places[i];
+    const NodePlace& b = places[j];
     return std::tuple(a.resolution, b.depth, a.id) < std::tuple(b.resolution, a.depth, b.id);
   });
-  return nodes;
+  return order;
 }
 
-std::vector<Eigen::AlignedBox3d> boxesOf(const std::vector<QueryNode>& nodes,
-                                         Eigen::AlignedBox3d QueryNode::*which) {
+/// In the world.
+std::vector<Eigen::AlignedBox3d> boxesOf(const std::vector<NodePlace>& places,
+                                         const std::vector<std::size_t>& order,
+                                         Eigen::AlignedBox3d VoxelExtent::*which) {
   std::vector<Eigen::AlignedBox3d> boxes;
-  for (const QueryNode& node : nodes) boxes.push_back(node.*which);
+  boxes.reserve(order.size());
+  for (const std::size_t i : order) {
+    const Eigen::AlignedBox3d& box = places[i].extent.*which;
+    boxes.push_back(box.isEmpty() ? box : worldBounds({places[i].world_T_node, box}));
+  }
   return boxes;
 }
 
 }  // namespace
 
-HierarchyQuery::Nodes::Nodes(std::vector<QueryNode> in_order)
-    : all(std::move(in_order)),
-      known(boxesOf(all, &QueryNode::known_world)),
-      occupied(boxesOf(all, &QueryNode::occupied_world)) {
-  for (const QueryNode& node : all) anything.extend(node.known_world);
+HierarchyQuery::Nodes::Nodes(std::shared_ptr<const NodeSource> source, const QueryConfig& config)
+    : source_(std::move(source)),
+      places_(placesInOrder(source_->places(), config)),
+      nodes_(places_.size()),
+      known(boxesOf(source_->places(), places_, &VoxelExtent::known)),
+      occupied(boxesOf(source_->places(), places_, &VoxelExtent::occupied)) {
+  for (const auto& box : boxesOf(source_->places(), places_, &VoxelExtent::known)) anything.extend(box);
+}
+
+const QueryNode& HierarchyQuery::Nodes::load(std::size_t i) const {
+  const std::lock_guard lock(loading_);
+  Slot& slot = nodes_[i];
+  if (!slot.node) {
+    slot.node.emplace(place(i), source_->map(places_[i]));
+    slot.ready.store(true, std::memory_order_release);
+  }
+  return *slot.node;
 }
 
 HierarchyQuery::HierarchyQuery(const MapHierarchy& map, const QueryConfig& config)
-    : nodes_(std::make_unique<const Nodes>(nodesInOrder(map, config))) {}
+    : HierarchyQuery(std::make_shared<const HierarchyNodes>(map), config) {}
+HierarchyQuery::HierarchyQuery(std::shared_ptr<const NodeSource> source, const QueryConfig& config)
+    : nodes_(std::make_unique<const Nodes>(std::move(source), config)) {}
 HierarchyQuery::~HierarchyQuery() = default;
 HierarchyQuery::HierarchyQuery(HierarchyQuery&&) noexcept = default;
 HierarchyQuery& HierarchyQuery::operator=(HierarchyQuery&&) noexcept = default;
 
 PointAnswer HierarchyQuery::at(const Eigen::Vector3d& world_point) const {
-  const auto& nodes = nodes_->all;
+  const Nodes& nodes = *nodes_;
   std::size_t first = nodes.size();
   const octomap::OcTreeNode* voxel = nullptr;
-  nodes_->known.at(world_point, [&](std::size_t i) {
+  const auto look = [&](std::size_t i) {
     if (i > first) return;
     const octomap::OcTreeNode* here = nodes[i].voxelAt(nodes[i].node_T_world * world_point);
     if (here == nullptr) return;
     first = i;
     voxel = here;
+  };
+  std::vector<std::size_t> not_loaded;
+  nodes.known.at(world_point, [&](std::size_t i) {
+    if (nodes.isLoaded(i)) {
+      look(i);
+    } else {
+      not_loaded.push_back(i);
+    }
   });
+  // In order: those that another one decides before need not be read.
+  std::sort(not_loaded.begin(), not_loaded.end());
+  for (const std::size_t i : not_loaded) look(i);
   if (voxel == nullptr) return {};
   const QueryNode& node = nodes[first];
   PointAnswer answer;
@@ -111,7 +143,7 @@ RayAnswer HierarchyQuery::castRay(const Eigen::Vector3d& origin, const Eigen::Ve
   std::sort(met.begin(), met.end());
   std::vector<RayWalk> walks;
   walks.reserve(met.size());
-  for (const std::size_t i : met) walks.emplace_back(nodes_->all[i], origin, along);
+  for (const std::size_t i : met) walks.emplace_back((*nodes_)[i], origin, along);
 
   double t = 0.0;
   while (t < leave) {
@@ -137,7 +169,7 @@ double HierarchyQuery::unknownShare(const Obb& box, double step) const {
   if (box.box.isEmpty()) throw std::invalid_argument("an empty box has no unknown share");
   if (!(step > 0.0)) {
     nodes_->known.meeting(worldBounds(box), [&](std::size_t i) {
-      const double resolution = nodes_->all[i].resolution;
+      const double resolution = nodes_->place(i).resolution;
       step = step > 0.0 ? std::min(step, resolution) : resolution;
     });
     if (!(step > 0.0)) return 1.0;  // no node is near

@@ -98,26 +98,26 @@ void search(const QueryNode& node, std::size_t index, const OctreeCell& cell, co
 }  // namespace
 
 std::optional<NodeId> HierarchyQuery::collision(const Obb& box) const {
-  std::size_t first = nodes_->all.size();
+  std::size_t first = nodes_->size();
   nodes_->occupied.meeting(worldBounds(box), [&](std::size_t i) {
     if (i > first) return;
-    const QueryNode& node = nodes_->all[i];
+    const QueryNode& node = (*nodes_)[i];
     const BoxInNode here(node, box);
     const bool missed = node.forEachOccupiedLeaf(
         node.top, [&](const OctreeCell& cell) { return here.meets(cell); },
         [](const OctreeCell&) { return false; });
     if (!missed) first = i;
   });
-  if (first == nodes_->all.size()) return std::nullopt;
-  return nodes_->all[first].id;
+  if (first == nodes_->size()) return std::nullopt;
+  return nodes_->place(first).id;
 }
 
 std::optional<NodeId> HierarchyQuery::collision(const Eigen::Vector3d& centre, double radius) const {
-  std::size_t first = nodes_->all.size();
+  std::size_t first = nodes_->size();
   const Eigen::Vector3d reach = Eigen::Vector3d::Constant(radius);
   nodes_->occupied.meeting({centre - reach, centre + reach}, [&](std::size_t i) {
     if (i > first) return;
-    const QueryNode& node = nodes_->all[i];
+    const QueryNode& node = (*nodes_)[i];
     const Eigen::Vector3d p = node.node_T_world * centre;
     const bool missed = node.forEachOccupiedLeaf(
         node.top,
@@ -127,13 +127,13 @@ std::optional<NodeId> HierarchyQuery::collision(const Eigen::Vector3d& centre, d
         [](const OctreeCell&) { return false; });
     if (!missed) first = i;
   });
-  if (first == nodes_->all.size()) return std::nullopt;
-  return nodes_->all[first].id;
+  if (first == nodes_->size()) return std::nullopt;
+  return nodes_->place(first).id;
 }
 
 std::optional<NearestVoxel> HierarchyQuery::nearestOccupied(const Eigen::Vector3d& world_point,
                                                             double max_distance) const {
-  const auto& nodes = nodes_->all;
+  const Nodes& nodes = *nodes_;
   Nearest best{max_distance * max_distance, nodes.size()};
   const auto look = [&](std::size_t i) {
     search(nodes[i], i, nodes[i].top, nodes[i].node_T_world * world_point, best);
@@ -145,14 +145,14 @@ std::optional<NearestVoxel> HierarchyQuery::nearestOccupied(const Eigen::Vector3
   const Eigen::Vector3d reach = Eigen::Vector3d::Constant(std::sqrt(best.squared));
   nodes_->occupied.meeting({world_point - reach, world_point + reach}, look);
   if (best.index == nodes.size()) return std::nullopt;
-  return NearestVoxel{std::sqrt(best.squared), best.world_point, nodes[best.index].id};
+  return NearestVoxel{std::sqrt(best.squared), best.world_point, nodes.place(best.index).id};
 }
 
 std::vector<NodeInRegion> HierarchyQuery::nodesIn(const Obb& region) const {
   std::vector<NodeInRegion> found;
   nodes_->occupied.meeting(worldBounds(region), [&](std::size_t i) {
-    const QueryNode& node = nodes_->all[i];
-    if (node.id == kRootId) return;
+    if (nodes_->place(i).id == kRootId) return;
+    const QueryNode& node = (*nodes_)[i];
     const BoxInNode here(node, region);
     bool meets = false;
     std::uint64_t inside = 0;
@@ -164,7 +164,8 @@ std::vector<NodeInRegion> HierarchyQuery::nodesIn(const Obb& region) const {
           return true;
         });
     if (meets) {
-      found.push_back({node.id, static_cast<double>(inside) / static_cast<double>(node.occupied_voxels)});
+      const double share = static_cast<double>(inside) / static_cast<double>(node.occupied_voxels);
+      found.push_back({node.id, share, nodes_->label(i), node.existence});
     }
   });
   std::sort(found.begin(), found.end(), [](const auto& a, const auto& b) { return a.node < b.node; });

@@ -1,25 +1,23 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "QueryNode.h"
 
-#include "hoctomap/geometry/Pose.h"
+#include <utility>
 
 namespace hoctomap {
 
-QueryNode::QueryNode(const MapHierarchy& map, NodeId node_id)
-    : id(node_id), depth(map.depth(node_id)), tree(&map.node(node_id).map().tree()) {
+QueryNode::QueryNode(const NodePlace& place, std::shared_ptr<const NodeMap> node_map)
+    : id(place.id), map(std::move(node_map)), tree(&map->tree()) {
   resolution = tree->getResolution();
   voxels_per_metre = 1.0 / resolution;
   occupied_log_odds = tree->getOccupancyThresLog();
-  existence = map.node(node_id).existence();
-  world_T_node = toIsometry(map.world_T_node(node_id));
+  existence = place.existence;
+  world_T_node = place.world_T_node;
   node_T_world = world_T_node.inverse();
+  known = place.extent.known;
+  occupied_voxels = place.extent.voxels.occupied;
   top = OctreeCell::rootOf(*tree);
-  if (top.node == nullptr) return;
-  measure(top);
-  known_world = worldBounds({world_T_node, known});
-  if (!occupied.isEmpty()) occupied_world = worldBounds({world_T_node, occupied});
   // The upper levels hold one child each: all that is known lies in a small part of what a tree can address.
-  while (!top.isLeaf(*tree)) {
+  while (top.node != nullptr && !top.isLeaf(*tree)) {
     OctreeCell only;
     unsigned children = 0;
     for (unsigned octant = 0; octant < OctreeCell::kOctants; ++octant) {
@@ -30,22 +28,6 @@ QueryNode::QueryNode(const MapHierarchy& map, NodeId node_id)
     }
     if (children != 1) break;
     top = only;
-  }
-}
-
-void QueryNode::measure(const OctreeCell& cell) {
-  if (cell.isLeaf(*tree)) {
-    const Eigen::AlignedBox3d cube = cell.cube(resolution);
-    known.extend(cube);
-    if (!isOccupied(cell)) return;
-    occupied.extend(cube);
-    const auto edge = static_cast<std::uint64_t>(cell.edge);
-    occupied_voxels += edge * edge * edge;
-    return;
-  }
-  for (unsigned octant = 0; octant < OctreeCell::kOctants; ++octant) {
-    const OctreeCell child = cell.child(*tree, octant);
-    if (child.node != nullptr) measure(child);
   }
 }
 

@@ -2,20 +2,20 @@
 #pragma once
 
 #include <cstdint>
-#include <utility>
+#include <memory>
 
 #include "OctreeCell.h"
 #include "hoctomap/geometry/Obb.h"
-#include "hoctomap/hierarchy/MapHierarchy.h"
+#include "hoctomap/hierarchy/NodeSource.h"
 
 namespace hoctomap {
 
 /// A map node, made ready for questions: what does not depend on the question is worked out once.
 struct QueryNode {
-  QueryNode(const MapHierarchy& map, NodeId node_id);
+  QueryNode(const NodePlace& place, std::shared_ptr<const NodeMap> node_map);
 
   NodeId id;
-  std::size_t depth = 0;
+  std::shared_ptr<const NodeMap> map;
   const octomap::OcTree* tree = nullptr;
   double resolution = 0.0;         ///< m
   double voxels_per_metre = 0.0;   ///< as octomap computes keys
@@ -23,11 +23,8 @@ struct QueryNode {
   double existence = 0.5;
   Eigen::Isometry3d world_T_node;
   Eigen::Isometry3d node_T_world;
-  OctreeCell top;                   ///< the smallest cell that holds all that is known
-  Eigen::AlignedBox3d known;        ///< of all known voxels, in the node's frame; empty without any
-  Eigen::AlignedBox3d occupied;     ///< of the occupied ones
-  Eigen::AlignedBox3d known_world;  ///< boxes around them in the world
-  Eigen::AlignedBox3d occupied_world;
+  OctreeCell top;                     ///< the smallest cell that holds all that is known
+  Eigen::AlignedBox3d known;          ///< of all known voxels, in the node's frame
   std::uint64_t occupied_voxels = 0;  ///< at the node's resolution
 
   /// An inner node of OctoMap is as likely as its likeliest child: false excludes all that is below, too.
@@ -49,9 +46,6 @@ struct QueryNode {
     }
     return true;
   }
-
- private:
-  void measure(const OctreeCell& cell);
 };
 
 }  // namespace hoctomap

@@ -85,6 +85,7 @@ struct Manifest {
   FileRecord existence;
   std::optional<FileRecord> scan_table;  ///< `scans.csv`; maps of earlier versions have none
   std::optional<FileRecord> seams;       ///< votes on where objects meet (SeamVotes), for a run that goes on
+  std::optional<FileRecord> index;       ///< the nodes once more, for quick reading (docs/decisions/0057)
   std::optional<FileRecord> scene;
   std::optional<StillSensor> sensor;  ///< of the last scan, for a run that goes on
   std::optional<MotionsTaken> motions;

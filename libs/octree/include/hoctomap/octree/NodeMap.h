@@ -20,6 +20,13 @@ struct VoxelCounts {
   std::uint64_t free = 0;
 };
 
+/// What a map knows and where, in the node's frame: whole voxels, no padding; empty boxes without any.
+struct VoxelExtent {
+  Eigen::AlignedBox3d known;     ///< of all voxels, occupied and free
+  Eigen::AlignedBox3d occupied;  ///< of the occupied ones
+  VoxelCounts voxels;
+};
+
 /// The map m_i of a node (Eq. 2): an OctoMap octree in the node's own frame.
 class NodeMap {
  public:
@@ -64,7 +71,9 @@ class NodeMap {
   /// Box of the occupied voxels in the node's frame (whole voxels, no padding); empty if there are none.
   [[nodiscard]] const Eigen::AlignedBox3d& occupiedBox() const;
 
-  [[nodiscard]] VoxelCounts countVoxels() const;
+  [[nodiscard]] VoxelCounts countVoxels() const { return extent().voxels; }
+  /// Looks at every leaf.
+  [[nodiscard]] VoxelExtent extent() const;
 
  private:
   void collectOccupied() const;

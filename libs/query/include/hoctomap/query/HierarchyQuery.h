@@ -8,7 +8,7 @@
 #include <span>
 #include <vector>
 
-#include "hoctomap/hierarchy/MapHierarchy.h"
+#include "hoctomap/hierarchy/NodeSource.h"
 
 namespace hoctomap {
 
@@ -48,6 +48,8 @@ struct NearestVoxel {
 struct NodeInRegion {
   NodeId node;
   double share = 0.0;  ///< of its occupied voxels, those whose centre lies in the region
+  Label label{};
+  double existence = 0.5;
 };
 
 struct QueryConfig {
@@ -60,11 +62,13 @@ struct QueryConfig {
 /// lower id. Points, rays and unknown shares go by that. Collisions, distances and regions are asked for the
 /// sake of safety: every occupied voxel of every node counts, with its whole cube.
 ///
-/// Refers to the hierarchy, which has to outlive it unchanged. Its functions may run in any number of threads
-/// at once. Coordinates have to be finite.
+/// A hierarchy in memory has to outlive it unchanged. Of other sources octrees are asked for when a question
+/// touches their node first; what that throws, the question throws. Its functions may run in any number of
+/// threads at once. Coordinates have to be finite.
 class HierarchyQuery {
  public:
   explicit HierarchyQuery(const MapHierarchy& map, const QueryConfig& config = {});
+  explicit HierarchyQuery(std::shared_ptr<const NodeSource> source, const QueryConfig& config = {});
   ~HierarchyQuery();
   HierarchyQuery(HierarchyQuery&&) noexcept;
   HierarchyQuery& operator=(HierarchyQuery&&) noexcept;
