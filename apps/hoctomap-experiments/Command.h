@@ -18,6 +18,8 @@ void addPerformanceCommand(CLI::App& app, Action& action);
 void addChangesCommand(CLI::App& app, Action& action);
 void addIdentityCommand(CLI::App& app, Action& action);
 void addSegmentationCommand(CLI::App& app, Action& action);
+void addBuildingCommand(CLI::App& app, Action& action);
+void addLargeMapCommand(CLI::App& app, Action& action);
 void addMeasureCommand(CLI::App& app, Action& action);
 
 }  // namespace hoctomap

@@ -30,6 +30,8 @@ int main(int argc, char** argv) {
   hoctomap::addChangesCommand(app, action);
   hoctomap::addIdentityCommand(app, action);
   hoctomap::addSegmentationCommand(app, action);
+  hoctomap::addBuildingCommand(app, action);
+  hoctomap::addLargeMapCommand(app, action);
   hoctomap::addMeasureCommand(app, action);
 
   try {

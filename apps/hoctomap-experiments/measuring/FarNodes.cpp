@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "measuring/FarNodes.h"
 
+#include <memory>
 #include <utility>
 
 #include "hoctomap/existence/ExistenceFilter.h"
@@ -43,20 +44,24 @@ MapHierarchy makeFarNodes(const Settings& settings, std::size_t nodes) {
   const LabelProfile& background = settings.labels.at(labels::background);
   MapHierarchy map(labels::background, NodeMap(background.resolution, background.occupancy));
   map.root().existence_log_odds = logOdds(background.existence.clamp_max);
+  // Small ones, so that 100,000 of them fit into memory.
+  const NodeMap table = block(settings.labels.at(labels::table), *engine, 0.04, 0.03);
+  const NodeMap object = block(settings.labels.at(labels::object), *engine, 0.004, 0.004);
+  const auto copyOf = [](const NodeMap& node) -> NodeMap {
+    return {std::make_unique<octomap::OcTree>(node.tree()), node.model()};
+  };
   NodeId parent = kRootId;
   for (std::size_t i = 0; i < nodes; ++i) {
     const auto place = static_cast<double>(i / kNodesOfTable);
     const Pose on_floor(100.0 + 3.0 * place, 0.0, 0.75, 0.0, 0.0, 0.0);
     const std::size_t number = i % kNodesOfTable;
     if (number == 0) {
-      parent = addNode(map, settings, labels::table,
-                       block(settings.labels.at(labels::table), *engine, 0.4, 0.3), on_floor, kRootId);
+      parent = addNode(map, settings, labels::table, copyOf(table), on_floor, kRootId);
       continue;
     }
     const double y = -0.25 + 0.05 * static_cast<double>(number);
     const Pose on_table = on_floor + Pose(0.0, y, 0.05, 0.0, 0.0, 0.0);
-    addNode(map, settings, labels::object, block(settings.labels.at(labels::object), *engine, 0.02, 0.02),
-            on_table, parent);
+    addNode(map, settings, labels::object, copyOf(object), on_table, parent);
   }
   return map;
 }

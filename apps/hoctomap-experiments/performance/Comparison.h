@@ -20,7 +20,7 @@ struct PerformanceOptions {
   int repeats = 3;
   std::uint64_t scans = 2;  ///< of the log, evenly spread, for what is compared with stock
   std::uint64_t scans_of_log = 0;
-  std::size_t far_nodes = 10'000;
+  std::size_t far_nodes = 100'000;
   double coarsening = 1.0;  ///< of the resolutions compared with stock: above 1 only to see whether all works
 };
 
