@@ -6,7 +6,7 @@ Usage: run_workflow.py HOCTOMAP HELPER SOURCES [--logs N] [--shared FOLDER] [--s
   --logs   how many, one of them damaged (4; more take in real data)     --slurm  also on Slurm, on this machine
   --speed  first on one core and on two, with times                      --out    where all stays (a temporary folder that does not)
 Exit code 77: Snakemake (or Slurm) is not installed."""
-import argparse, csv, os, pathlib, re, resource, shlex, shutil, signal, subprocess, sys, tempfile, threading, time
+import argparse, csv, os, pathlib, re, resource, shlex, shutil, signal, subprocess, sys, tempfile, time
 
 parser = argparse.ArgumentParser()
 parser.add_argument('programs', nargs=3, type=pathlib.Path)
@@ -17,6 +17,8 @@ parser.add_argument('--speed', action='store_true')
 parser.add_argument('--out', type=pathlib.Path)
 options = parser.parse_args()
 PROGRAM, HELPER, SOURCES = (path.resolve() for path in options.programs)
+if options.shared:
+    options.shared = options.shared.resolve()
 LONG, DAMAGED = 'desk-long', 'damaged'
 KILLED_PART = f'{LONG}/parts/0'
 PART_SCANS = 10
@@ -104,9 +106,7 @@ def run(folder, command, meanwhile=None):
     with open(folder / 'workflow.log', 'a') as log:
         process = subprocess.Popen(command, stdout=log, stderr=log, stdin=subprocess.DEVNULL, env=ENVIRONMENT)
         if meanwhile:
-            thread = threading.Thread(target=meanwhile)
-            thread.start()
-            thread.join()
+            meanwhile(folder, process)
         process.wait()
     after = resource.getrusage(resource.RUSAGE_CHILDREN)
     expect(process.returncode == 0, f'{folder.name}: the workflow ends with exit code 0')
@@ -124,10 +124,9 @@ def processes_of(*words):
             yield int(entry.name)
 
 
-def running_build(folder):
-    """The process of one that is at work and has committed something, held in its tracks; None if none came."""
-    deadline = time.monotonic() + 120
-    while time.monotonic() < deadline:
+def running_build(folder, workflow):
+    """The process of one that is at work and has committed something, held in its tracks; None if the workflow ends before."""
+    while workflow.poll() is None:
         if (folder / KILLED_PART / 'hierarchy.yaml').exists():
             for pid in processes_of(str(PROGRAM), 'build', KILLED_PART):
                 if os.readlink(f'/proc/{pid}/cwd') == str(folder):
@@ -137,16 +136,16 @@ def running_build(folder):
     return None
 
 
-def kill_process(folder):
-    pid = running_build(folder)
+def kill_process(folder, workflow):
+    pid = running_build(folder, workflow)
     expect(pid is not None, f'{folder.name}: a build is killed')
     if pid:
         os.kill(pid, signal.SIGKILL)
 
 
-def cancel_job(folder):
+def cancel_job(folder, workflow):
     """The whole job of Slurm, with the Snakemake in it."""
-    pid = running_build(folder)
+    pid = running_build(folder, workflow)
     expect(pid is not None, f'{folder.name}: the job of a build is cancelled')
     if pid:
         words = pathlib.Path(f'/proc/{pid}/environ').read_bytes().decode(errors='replace').split('\0')
@@ -170,7 +169,8 @@ def look_at(folder, names):
     bad = rows[DAMAGED]
     expect(bad['status'] == 'failed' and bad['exit_code'] == '3' and 'cut' in bad['error'], f'{folder.name}: the damaged log is named: {bad["error"]}')
     others = [row for row in rows.values() if row['name'] != DAMAGED]
-    expect(all(row['status'] == 'ok' for row in others), f'{folder.name}: {sum(row["status"] == "ok" for row in others)} others are mapped')
+    mapped = sum(row['status'] == 'ok' for row in others)
+    expect(mapped == len(others), f'{folder.name}: {mapped} of {len(others)} others are mapped')
     expect(int(rows[LONG]['parts']) > 1, f'{folder.name}: the long log was mapped in {rows[LONG]["parts"]} parts')
     expect(rows[LONG]['objects'] == '3', f'{folder.name}: its three objects are in the merged map')
     moved = [row for row in others if row['since'].startswith('desk') and row['name'].startswith('desk') and row['since'] != LONG]
@@ -204,7 +204,7 @@ def main():
         wall_1, cpu_1 = run(one, ['taskset', '-c', '0', *workflow(one, '--cores', '1')])
         told('one core', wall_1, cpu_1)
     local = data_set('local')
-    wall_2, cpu_2 = run(local, workflow(local, '--cores', '2'), lambda: kill_process(local))
+    wall_2, cpu_2 = run(local, workflow(local, '--cores', '2'), kill_process)
     told('two cores', wall_2, cpu_2)
     look_at_retry(local)
     look_at(local, names)
@@ -217,7 +217,7 @@ def main():
         slurm = data_set('slurm')
         ENVIRONMENT['CI'] = 'true'  # Snakemake then asks for the state of jobs every second, not every ten
         command = [SOURCES / 'scripts/slurm_here.sh', '--cpus', '2', *workflow(slurm, '--profile', SOURCES / 'workflows/profiles/slurm')]
-        told('slurm', *run(slurm, command, lambda: cancel_job(slurm)))
+        told('slurm', *run(slurm, command, cancel_job))
         look_at_retry(slurm)
         look_at(slurm, names)
         compare(local, slurm, names)
