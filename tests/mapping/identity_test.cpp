@@ -2,6 +2,10 @@
 // One object is one node, in whatever order the scans come (docs/decisions/0028).
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <cstdlib>
+#include <random>
+
 #include "ScriptedMapper.h"
 #include "hoctomap/mapping/ScanSeams.h"
 
@@ -178,6 +182,45 @@ TEST(SeamVotes, GroundBesideAnObjectVotesForASeamOnly) {
     }
   }
   EXPECT_GT(against, 20);
+}
+
+// Against a flood over all cells; what is far away is not even looked at.
+TEST(SeamVotes, ObjectsAroundAreAllThatHangTogetherWithTheSeeds) {
+  for (std::uint64_t seed = 1; seed <= 20; ++seed) {
+    Rng rng(seed);
+    const auto draw = [&rng](std::int32_t low, std::int32_t high) {
+      return std::uniform_int_distribution<std::int32_t>(low, high)(rng);
+    };
+    SeamVotes seams;
+    std::vector<SeamVotes::Cell> all;
+    for (int blob = 0; blob < 40; ++blob) {
+      SeamVotes::Cell at{draw(-90, 90), draw(-90, 90), draw(40, 60)};
+      for (int k = 0; k < 30; ++k) {
+        at = {at.x + draw(-2, 2), at.y + draw(-2, 2), at.z};
+        SeamVotes::Votes votes;
+        votes.is_object = true;
+        seams.set(at, votes);
+        all.push_back(at);
+      }
+    }
+    seams.set({500, 500, 50}, {.is_object = true, .known = {}, .evidence = {}});
+    const SeamVotes::Cells seeds{all.front()};
+    SeamVotes::Cells expected = seeds;
+    std::vector<SeamVotes::Cell> open{all.front()};
+    while (!open.empty()) {
+      const SeamVotes::Cell c = open.back();
+      open.pop_back();
+      for (const auto& o : all) {
+        if (std::max({std::abs(o.x - c.x), std::abs(o.y - c.y), std::abs(o.z - c.z)}) > 2) continue;
+        if (expected.insert(o).second) open.push_back(o);
+      }
+    }
+    std::vector<SeamVotes::Cell> found;
+    for (const auto* entry : seams.objectsAround(seeds)) found.push_back(entry->first);
+    EXPECT_TRUE(std::is_sorted(found.begin(), found.end()));
+    EXPECT_TRUE(std::includes(found.begin(), found.end(), expected.begin(), expected.end())) << seed;
+    EXPECT_LT(found.back().x, 500);
+  }
 }
 
 TEST(SeamVotes, WhatIsForgottenLeavesNothing) {

@@ -3,6 +3,8 @@
 
 #include <algorithm>
 #include <cstdlib>
+#include <limits>
+#include <set>
 #include <utility>
 #include <vector>
 
@@ -112,6 +114,37 @@ bool SeamVotes::meet(const Cells& a, const Cells& b) const {
     });
   };
   return reaches(a, b) || reaches(b, a);
+}
+
+std::vector<const SeamVotes::Entry*> SeamVotes::objectsAround(const Cells& seeds) const {
+  // By columns of 16 x 16 cells: what hangs together reaches two cells far, so it never jumps over an empty
+  // one.
+  constexpr int kShift = 4;
+  using Column = std::pair<std::int32_t, std::int32_t>;
+  std::set<Column> known;
+  std::vector<Column> open;
+  const auto enter = [&](const Column& column) {
+    if (known.insert(column).second) open.push_back(column);
+  };
+  for (const Cell& seed : seeds) enter({seed.x >> kShift, seed.y >> kShift});
+  std::vector<const Entry*> found;
+  while (!open.empty()) {
+    const auto [column_x, column_y] = open.back();
+    open.pop_back();
+    const std::size_t before = found.size();
+    for (std::int32_t x = column_x << kShift; x >> kShift == column_x; ++x) {
+      auto entry = votes_.lower_bound({x, column_y << kShift, std::numeric_limits<std::int32_t>::min()});
+      for (; entry != votes_.end() && entry->first.x == x && entry->first.y >> kShift == column_y; ++entry) {
+        if (entry->second.is_object) found.push_back(&*entry);
+      }
+    }
+    if (found.size() == before) continue;
+    for (const std::int32_t dx : {-1, 0, 1}) {
+      for (const std::int32_t dy : {-1, 0, 1}) enter({column_x + dx, column_y + dy});
+    }
+  }
+  std::sort(found.begin(), found.end(), [](const Entry* a, const Entry* b) { return a->first < b->first; });
+  return found;
 }
 
 }  // namespace hoctomap

@@ -23,15 +23,14 @@ struct CellBorder {
   SeamBorder border;
 };
 
-/// The cells of objects, in order, and which of them have a border: those that some scan has shown together,
-/// and neighbours.
+/// The cells of objects around `seeds`, in order, and which of them have a border: those that some scan has
+/// shown together, and neighbours.
 class CellGraph {
  public:
-  explicit CellGraph(const SeamVotes& votes) {
-    for (const auto& entry : votes.all()) {
-      if (!entry.second.is_object) continue;
-      cells_.push_back(entry.first);
-      votes_.push_back(&entry.second);
+  CellGraph(const SeamVotes& votes, const SeamVotes::Cells& seeds) {
+    for (const SeamVotes::Entry* entry : votes.objectsAround(seeds)) {
+      cells_.push_back(entry->first);
+      votes_.push_back(&entry->second);
     }
   }
 
@@ -98,7 +97,7 @@ struct Place {
 }  // namespace
 
 SurfaceRegions::SurfaceRegions(const SeamVotes& votes, const SeamVotes::Cells& seeds) {
-  const CellGraph graph(votes);
+  const CellGraph graph(votes, seeds);
   const std::vector<CellBorder> borders = graph.borders();
   std::vector<std::optional<Place>> places(graph.size());
   std::vector<RegionMerging> mergings;

@@ -8,6 +8,8 @@
 #include <map>
 #include <set>
 #include <span>
+#include <utility>
+#include <vector>
 
 #include "hoctomap/geometry/PointCloud.h"
 
@@ -59,6 +61,11 @@ class SeamVotes {
     std::array<std::int16_t, kDirections> evidence{};
     bool operator==(const Votes&) const = default;
   };
+
+  using Entry = std::pair<const Cell, Votes>;
+  /// The cells of objects that may hang together with those of `seeds`, in order: what is farther away costs
+  /// nothing. Some that do not are among them.
+  [[nodiscard]] std::vector<const Entry*> objectsAround(const Cells& seeds) const;
 
   bool operator==(const SeamVotes&) const = default;
 
