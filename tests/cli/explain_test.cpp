@@ -148,6 +148,9 @@ TEST(AtScan, AKeptStateIsThatOfARunThatStoppedThere) {
     end.scene.reset();
     end.events = end.events_before_end.value_or(end.events);
     end.events_before_end.reset();
+    // Each names the index of its own nodes; those that the end of the log lets in wait in the kept state.
+    kept.index.reset();
+    end.index.reset();
     EXPECT_EQ(toYaml(kept), toYaml(end)) << "scan " << k;
     const auto lines = [](const test::Outcome& outcome) { return outcome.out; };
     EXPECT_EQ(lines(test::hoctomap({"explain", folder / "map", "2", "--json", "--at-scan", scan})),

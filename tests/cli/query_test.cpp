@@ -131,10 +131,12 @@ TEST_F(QueryCommand, BadLinesAreExit3NamingFileAndLine) {
   query({"--batch", folder / "map"}, 3);
 }
 
-TEST_F(QueryCommand, ADamagedMapIsExit4) {
-  const auto victim = test::nodesOf(map, "table").front().record.ot.path;
+TEST_F(QueryCommand, ADamagedNodeIsExit4WhereTheQuestionTouchesIt) {
+  const std::string p = objectPoint();
+  const auto victim = test::nodesOf(map, "object").front().record.ot.path;
   test::writeFile(folder / ("map/" + victim), "no octree");
-  query({"--point", "0,0,0"}, 4);
+  query({"--point", p}, 4);
+  query({"--point", "50,50,50"});
   EXPECT_EQ(test::hoctomap({"query", folder / "nothing", "--point", "0,0,0"}).exit_code, 4);
 }
 

@@ -46,13 +46,22 @@ std::string toString(TableOutcome outcome) {
   return "out_of_views";
 }
 
+/// What a viewpoint was chosen for.
+struct Explorer::Promise {
+  Eigen::Vector2d place;
+  double gain;
+  std::size_t unknown;  ///< cells before the view
+};
+
 /// What the exploration knows of a table.
 struct Explorer::TableState {
   TableArea area;
   std::optional<ClearedSpace> cleared;
   std::size_t cleared_scans = 0;  ///< that it has
   int views = 0;
-  int failed_moves = 0;  ///< in a row
+  int failed_moves = 0;                 ///< in a row
+  std::optional<Promise> promise;       ///< of the last view of its objects
+  std::vector<Eigen::Vector2d> barren;  ///< places that did not keep theirs
   std::optional<double> first_everything_gain;
   std::optional<double> first_box_gain;
   std::optional<TableOutcome> outcome;
@@ -155,6 +164,7 @@ void Explorer::exploreStep(const TableArea& area) {
   step.unknown_in_boxes = knowledge.count(Knowledge::unknown_in_box);
   if (state.views >= config_.max_views) return end(state, TableOutcome::out_of_views, step);
 
+  noteBrokenPromise(state, step.unknown_in_boxes);
   const Wanted wanted = wantedOf(state);
   step.kind = wanted == Wanted::boxes ? StepKind::view : StepKind::first_view;
   // What is left may be seen from few places: a table is not given up for one set V that has none of them.
@@ -164,6 +174,7 @@ void Explorer::exploreStep(const TableArea& area) {
     const std::vector<Viewpoint> candidates = candidatesOf(area, travel, draw);
     if (candidates.empty()) return end(state, TableOutcome::unreachable, step);
     evaluate(step, candidates, knowledge, travel, wanted);
+    if (wanted == Wanted::boxes) passOver(state.barren, step);
     std::optional<double>& first_gain =
         wanted == Wanted::boxes ? state.first_box_gain : state.first_everything_gain;
     if (!first_gain) first_gain = step.mostGain();
@@ -174,8 +185,34 @@ void Explorer::exploreStep(const TableArea& area) {
     // Never seen at all: not from where the robot can get to.
     return end(state, state.views == 0 ? TableOutcome::unreachable : TableOutcome::explored, step);
   }
+  if (wanted == Wanted::boxes) {
+    const auto& chosen = step.candidates[*step.chosen];
+    state.promise = Promise{placeOf(chosen.viewpoint.world_T_base), chosen.gain, step.unknown_in_boxes};
+  }
   goAndMeasure(state, travel, step);
   report(step);
+}
+
+/// Where less than a tenth of what a view promised became known, rays of the gain meet what beams do not.
+void Explorer::noteBrokenPromise(TableState& state, std::size_t unknown) {
+  constexpr double kKept = 0.1;
+  if (state.promise && state.failed_moves == 0 &&
+      static_cast<double>(state.promise->unknown) - static_cast<double>(unknown) <
+          kKept * state.promise->gain) {
+    state.barren.push_back(state.promise->place);
+  }
+  state.promise.reset();
+}
+
+/// A view from beside a barren place promises the same, and would not keep it either.
+void Explorer::passOver(const std::vector<Eigen::Vector2d>& barren, ExplorationStep& step) {
+  constexpr double kBeside = 0.5;  // m
+  for (auto& candidate : step.candidates) {
+    const Eigen::Vector2d place = placeOf(candidate.viewpoint.world_T_base);
+    const bool is_beside = std::any_of(barren.begin(), barren.end(),
+                                       [&](const auto& b) { return (place - b).norm() < kBeside; });
+    if (is_beside) candidate.gain = candidate.utility = 0.0;
+  }
 }
 
 /// The first view of a table looks for its objects anywhere over it; afterwards what is unknown in their

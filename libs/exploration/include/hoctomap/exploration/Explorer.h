@@ -69,6 +69,7 @@ class Explorer {
   ExplorationResult run();
 
  private:
+  struct Promise;
   struct TableState;
   struct Scan;
 
@@ -79,6 +80,8 @@ class Explorer {
   void evaluate(ExplorationStep& step, const std::vector<Viewpoint>& candidates,
                 const KnowledgeGrid& knowledge, const TravelCost& travel, Wanted wanted) const;
   [[nodiscard]] double utilityOf(double gain, double cost) const;
+  static void noteBrokenPromise(TableState& state, std::size_t unknown);
+  static void passOver(const std::vector<Eigen::Vector2d>& barren, ExplorationStep& step);
   void goAndMeasure(TableState& state, const TravelCost& travel, ExplorationStep& step);
   void measure(ExplorationStep& step);
   void end(TableState& state, TableOutcome outcome, ExplorationStep& step);
