@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Which lines a program comes to, without building it for that: a library to be loaded before it (LD_PRELOAD). At each of the
-// addresses in LINE_HITS/NAME.addresses (offsets, 8 bytes each, sorted; NAME is the program's file name) stands a breakpoint;
-// the first time the program comes by, it is taken out, and a byte of LINE_HITS/NAME.hits is set, in shared memory: that
-// outlives kills and _exit(), and needs no file to be opened later, which a confined process could not. x86-64, Linux.
+// Which lines a program comes to, without building it for that: a library to be loaded before it
+// (LD_PRELOAD). At each of the addresses in LINE_HITS/NAME.addresses (offsets, 8 bytes each, sorted; NAME is
+// the program's file name) stands a breakpoint; the first time the program comes by, it is taken out, and a
+// byte of LINE_HITS/NAME.hits is set, in shared memory: that outlives kills and _exit(), and needs no file to
+// be opened later, which a confined process could not. x86-64, Linux.
 #include <fcntl.h>
 #include <link.h>
 #include <signal.h>
@@ -30,7 +31,8 @@ struct Hits {
 Hits g;  // a signal handler takes no context
 
 void* mapped(const std::string& file, std::size_t& bytes, int protection) {
-  const int fd = open(file.c_str(), (protection & PROT_WRITE) != 0 ? O_RDWR | O_CLOEXEC : O_RDONLY | O_CLOEXEC);
+  const int fd =
+      open(file.c_str(), (protection & PROT_WRITE) != 0 ? O_RDWR | O_CLOEXEC : O_RDONLY | O_CLOEXEC);
   struct stat info {};
   if (fd < 0 || fstat(fd, &info) != 0) return nullptr;
   bytes = static_cast<std::size_t>(info.st_size);

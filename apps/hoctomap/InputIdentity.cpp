@@ -62,7 +62,8 @@ std::optional<std::string> InputIdentity::contradiction(const std::string& earli
       return "it was built from more logs; name all of them, in the same order";
     if (earlier.compare(at, next - at, log_sha256_[count]) != 0) {
       return escapedText(logs_[count].string()) + " is not its log number " + std::to_string(count + 1) +
-             ", or it or the files it names have changed; name the same logs in the same order, and further ones behind them";
+             ", or it or the files it names have changed; name the same logs in the same order, and further "
+             "ones behind them";
     }
     at = next + 1;
   }

@@ -29,8 +29,7 @@ GzFileOutput::GzFileOutput(const std::filesystem::path& target, int level)
       buffer_(kBufferBytes) {
   waiting_.reserve(kBufferBytes);
   if (file_.get() < 0) fail(std::string("cannot be written: ") + std::strerror(errno));
-  if (deflateInit2(&zlib_, level, Z_DEFLATED, kGzipWindow, kMemoryLevel,
-                   Z_DEFAULT_STRATEGY) != Z_OK)
+  if (deflateInit2(&zlib_, level, Z_DEFLATED, kGzipWindow, kMemoryLevel, Z_DEFAULT_STRATEGY) != Z_OK)
     throw std::bad_alloc();
 }
 

@@ -6,8 +6,8 @@
 namespace hoctomap::engine {
 
 /// Calls `visit(first, level)` for each occupied leaf `level` levels above the voxels, whose first voxel has
-/// the key, in the order of octomap's leaf iterator. Branches without any are not entered: an inner node is as
-/// occupied as its most occupied child.
+/// the key, in the order of octomap's leaf iterator. Branches without any are not entered: an inner node is
+/// as occupied as its most occupied child.
 template <typename Visit>
 class OccupiedLeaves {
  public:
