@@ -18,4 +18,16 @@ void noteOlderState(const std::string& map, std::uint64_t scans, const AtScan& a
             << state << std::endl;
 }
 
+Manifest readManifestAt(const std::string& map, const AtScan& at_scan) {
+  Manifest manifest = readManifest(map, at_scan);
+  noteOlderState(map, manifest.scans, at_scan);
+  return manifest;
+}
+
+StoredMap readMapAt(const std::string& map, const AtScan& at_scan) {
+  StoredMap stored = readMap(map, {.at_scan = at_scan});
+  noteOlderState(map, stored.manifest.scans, at_scan);
+  return stored;
+}
+
 }  // namespace hoctomap

@@ -29,20 +29,13 @@ struct DiffOptions {
   double min_motion = DiffConfig{}.min_motion;
 };
 
-StoredMap readSide(const std::string& path, const AtScan& own, const AtScan& both) {
-  const AtScan at_scan = own ? own : both;
-  StoredMap map = readMap(path, {.at_scan = at_scan});
-  noteOlderState(path, map.manifest.scans, at_scan);
-  return map;
-}
-
 int compare(const DiffOptions& options) {
   const Pose a_T_b = options.transform.empty() ? Pose() : parseTransform(options.transform);
   if (!(options.min_motion >= 0.0) || !std::isfinite(options.min_motion)) {
     throw ConfigError("--min-motion must be a length in metres");
   }
-  const StoredMap a = readSide(options.a, options.at_scan_a, options.at_scan);
-  const StoredMap b = readSide(options.b, options.at_scan_b, options.at_scan);
+  const StoredMap a = readMapAt(options.a, options.at_scan_a ? options.at_scan_a : options.at_scan);
+  const StoredMap b = readMapAt(options.b, options.at_scan_b ? options.at_scan_b : options.at_scan);
   DiffConfig config;
   config.min_motion = options.min_motion;
   const std::vector<Change> changes = diff(a.hierarchy, b.hierarchy, config, toIsometry(a_T_b));

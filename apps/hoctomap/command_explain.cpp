@@ -20,8 +20,7 @@ struct ExplainOptions {
 };
 
 int explain(const ExplainOptions& options) {
-  const Manifest manifest = readManifest(options.map, options.at_scan);
-  noteOlderState(options.map, manifest.scans, options.at_scan);
+  const Manifest manifest = readManifestAt(options.map, options.at_scan);
   const NodeLife life = readNodeLife(options.map, manifest, NodeId{options.node});
   if (!options.plot.empty()) {
     drawExistence(life, manifest.scans == 0 ? 0 : manifest.scans - 1, options.plot);

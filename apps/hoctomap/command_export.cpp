@@ -105,8 +105,7 @@ int exportMap(const ExportOptions& options) {
   if ((options.node || options.merged) && !isOctree(options.format))
     throw ConfigError("--node and --merged are for --format bt and ot");
   if (options.node) return exportOneNode(options);
-  const Manifest manifest = readManifest(options.map, options.at_scan);
-  noteOlderState(options.map, manifest.scans, options.at_scan);
+  const Manifest manifest = readManifestAt(options.map, options.at_scan);
   const Damages damage = exportInto(options, manifest);
   for (const Damage& d : damage)
     std::cout << "damaged  " << escapedText(d.path) << "  " << escapedText(d.what) << "\n";

@@ -24,8 +24,7 @@ struct InfoOptions {
 
 int info(const InfoOptions& options) {
   if (std::filesystem::is_directory(options.path)) {
-    const Manifest manifest = readManifest(options.path, options.at_scan);
-    noteOlderState(options.path, manifest.scans, options.at_scan);
+    const Manifest manifest = readManifestAt(options.path, options.at_scan);
     const auto damage = findDamage(options.path, manifest);
     if (!damage.empty()) {
       throw MapError(

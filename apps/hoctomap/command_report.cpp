@@ -30,10 +30,8 @@ struct ReportOptions {
 /// The differences as `hoctomap diff A B --json` prints them.
 std::string differences(const ReportOptions& options) {
   const Pose a_T_b = options.transform.empty() ? Pose() : parseTransform(options.transform);
-  const StoredMap a = readMap(options.folders[0], {.at_scan = options.at_scan_a});
-  const StoredMap b = readMap(options.folders[1], {.at_scan = options.at_scan_b});
-  noteOlderState(options.folders[0], a.manifest.scans, options.at_scan_a);
-  noteOlderState(options.folders[1], b.manifest.scans, options.at_scan_b);
+  const StoredMap a = readMapAt(options.folders[0], options.at_scan_a);
+  const StoredMap b = readMapAt(options.folders[1], options.at_scan_b);
   const auto changes = diff(a.hierarchy, b.hierarchy, DiffConfig{}, toIsometry(a_T_b));
   return diffJson({options.folders[0], a.manifest}, {options.folders[1], b.manifest}, a_T_b, changes);
 }
