@@ -111,6 +111,28 @@ TEST_F(MovedObjects, ThatAppearedBeforeTheOldPlaceWasSeenEmptyGetTheirNodeBack) 
   EXPECT_LT((at - angle(0.2, 0.15, 0.6).points[0].cast<double>()).norm(), 0.15);
 }
 
+// What was found of two nodes is what would be found now, also when one of them has changed since.
+TEST_F(MovedObjects, WhatIsRememberedOfTwoNodesHoldsUntilOneChanges) {
+  const ReidentificationConfig config;
+  const std::map<NodeId, Evidence> support;
+  (*m_.evidence)[kObject] = Evidence{};  // out of view
+  m_.integrate(withRoom(2, {kTable, angle(0.2, 0.15, 0.6)}));
+  const NodeId again{3};
+  (*m_.evidence)[again] = seen(true);
+  LateMatches remembering;
+  const auto found = [&](LateMatches& matches, std::uint64_t scan) {
+    const auto match = matches.find(m_.h(), kObject, scan, support, config);
+    return match ? std::optional(match->again) : std::nullopt;
+  };
+  for (const std::uint64_t scan : {3U, 4U, 4U}) EXPECT_EQ(found(remembering, scan), again) << scan;
+  m_.integrate(withRoom(5, {kTable, angle(0.2, 0.15, 0.6, 0.25)}));  // it is larger than it seemed
+  for (const std::uint64_t scan : {5U, 6U, 7U}) {
+    LateMatches fresh;
+    EXPECT_EQ(found(remembering, scan), found(fresh, scan)) << scan;
+    EXPECT_EQ(found(remembering, scan), std::nullopt) << scan;
+  }
+}
+
 TEST(ReplacedObjects, AreRemovedAndTheirSuccessorIsANewNode) {
   // A low plate, seen from above, and then a tall box in its place: the beams end on the box, where the plate
   // would hide behind it, so that nothing contradicts the plate but the space that was free.

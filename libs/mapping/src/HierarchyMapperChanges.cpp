@@ -5,7 +5,6 @@
 #include <numbers>
 #include <utility>
 
-#include "LateMatches.h"
 #include "MovedCarriers.h"
 #include "NodeEvidence.h"
 #include "PieceVoting.h"
@@ -120,7 +119,7 @@ void HierarchyMapper::matchLate(const Measurement& z, NodeEvidence& evidence, Up
     if (e.contradicts() && hierarchy_.contains(id)) contradicted.push_back(id);
   }
   for (const NodeId id : contradicted) {
-    const auto match = findLateMatch(hierarchy_, id, z.scan, evidence.by_node, config_.reidentification);
+    const auto match = late_matches_.find(hierarchy_, id, z.scan, evidence.by_node, config_.reidentification);
     if (!match) continue;
     moveInWorld(id, match->registration.motion);
     hierarchy_.reparent(id, hierarchy_.node(match->again).parent().value_or(kRootId));

@@ -13,6 +13,7 @@
 #include "hoctomap/mapping/AssociationFunction.h"
 #include "hoctomap/mapping/LabelProfile.h"
 #include "hoctomap/mapping/LabelingFunction.h"
+#include "hoctomap/mapping/LateMatches.h"
 #include "hoctomap/mapping/MeasurementSource.h"
 #include "hoctomap/mapping/PreparedScan.h"
 #include "hoctomap/mapping/Reidentification.h"
@@ -166,6 +167,7 @@ class HierarchyMapper {
   std::vector<RemovedNode> removed_;
   SeamVotes seams_;
   std::optional<StillSensor> sensor_;
+  LateMatches late_matches_;
   std::set<NodeId> waiting_;  ///< nodes that wait for confirmation
 };
 
