@@ -4,6 +4,8 @@
 #   scripts/soak.sh kills N      kills a run over and over until N kills are reached; every map ends with the same bytes
 #   scripts/soak.sh cycles N     N scans, each taken in by a process of its own; the bytes of one process over all
 #   scripts/soak.sh logs N       N mutated logs through `hoctomap build`
+#   scripts/soak.sh hostile N    N times files made to do harm: seconds and memory until they are refused
+#   scripts/soak.sh stops N      N stop signals at random moments of a run over LOG (a scene without one), with OPTIONS of build
 #   scripts/soak.sh reader N     N mutated logs through the log reader's fork server
 #   scripts/soak.sh fuzz N       N executions of every fuzzer (preset `fuzz`, FUZZ, default build/fuzz), or of TARGETS
 # `reader` and `fuzz` go on where they were stopped: what is done stands in build/soak.
@@ -15,7 +17,7 @@ hoctomap=$build/apps/hoctomap/hoctomap
 export HOCTOMAP_MRPT=$build/apps/hoctomap-mrpt/hoctomap-mrpt
 work=$(mktemp -d)
 trap 'rm -rf "$work"' EXIT
-what=${1:?kills, cycles, logs, reader or fuzz}
+what=${1:?kills, cycles, logs, hostile, stops, reader or fuzz}
 count=${2:?how many}
 
 # What has to be the same: all but the files that hold times of the run.
@@ -67,6 +69,16 @@ cycles() {
 logs() {
   "$hoctomap" simulate -q -c configs/scenes/demo.ini -o "$work/a.rawlog" --set path.sweep.views=2 > /dev/null
   python3 scripts/mutated_logs.py "$hoctomap" "$work" "$count" "${SEED:-1}"
+}
+
+hostile() {
+  "$hoctomap" simulate -q -c configs/scenes/demo.ini -o "$work/a.rawlog" > /dev/null
+  for _ in $(seq "$count"); do python3 scripts/hostile_files.py "$hoctomap" "$work/a.rawlog"; done
+}
+
+stops() {
+  [ -n "${LOG:-}" ] || "$hoctomap" simulate -q -c configs/scenes/demo.ini -o "$work/a.rawlog" --set path.sweep.views=100 > /dev/null
+  python3 scripts/stop_times.py "$hoctomap" "${LOG:-$work/a.rawlog}" "$count" "${SEED:-1}" ${OPTIONS:-}
 }
 
 # Portions of a long run, each recorded in build/soak/NAME.txt when it is done: what was stopped goes on where it was.

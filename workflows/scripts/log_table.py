@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """The table of logs: a CSV file with the columns name, log, poses, config, place, and perhaps import."""
-import csv, dataclasses, pathlib, re, shlex
+import csv, dataclasses, math, pathlib, re, shlex
 
 REQUIRED = ['name', 'log', 'poses', 'config', 'place']
 OWN_POSES = ('', 'identity', 'odometry')
@@ -69,3 +69,8 @@ def previous_visits(visits):
                 previous[visit.name] = last[visit.place]
             last[visit.place] = visit.name
     return previous
+
+
+def part_count(estimate, part_scans):
+    """Of a log with this estimate (None where it could not be read): how many parts of at most part_scans scans it is mapped in."""
+    return max(1, math.ceil(estimate['scans'] / int(part_scans))) if estimate else 1
