@@ -71,6 +71,25 @@ TEST(TableSearch, TakesNoFloorWallSeatOrScrap) {
   for (std::uint64_t seed = 1; seed <= 4; ++seed) EXPECT_TRUE(tablesOf(scene, seed).empty());
 }
 
+/// At 5 m the ranges of a wall scatter by the depth of a small table.
+TEST(TableSearch, TheNoiseOfAFarWallIsNoTable) {
+  BoxScene scene;
+  scene.add(0.0, 0.0, -0.1, 14.0, 14.0, 0.1);  // floor
+  scene.add(5.2, 0.0, 0.0, 0.1, 8.0, 2.5);     // wall
+  const auto table = scene.add(4.3, 0.6, 0.70, 0.8, 1.2, 0.03);
+  const Eigen::AlignedBox2d top(scene.boxes[table].min().head<2>(), scene.boxes[table].max().head<2>());
+  for (std::uint64_t seed = 1; seed <= 20; ++seed) {
+    Rng rng(seed);
+    const auto z = scene.look({0.0, 0.0, 1.45}, {5.0, 0.0, 0.9}, &rng);
+    for (const auto& found : findTables(z, TabletopSegmentationConfig{})) {
+      for (std::size_t i = 0; i < found.patch.size(); ++i) {
+        if (!found.patch[i]) continue;
+        ASSERT_LT(top.exteriorDistance(found.grid.center(i)), 0.1) << "seed " << seed;
+      }
+    }
+  }
+}
+
 TEST(TableSearch, TopOfABoxIsNoTable) {
   BoxScene scene;
   scene.add(1.1, 0.0, 0.67, 0.8, 1.2, 0.03);

@@ -3,7 +3,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <optional>
+#include <utility>
 
 #include "ScanBlocks.h"
 #include "VoxelIndex.h"
@@ -108,10 +110,18 @@ void attachStrays(const Measurement& z, std::vector<TableSurface>& tables, std::
              Heights(table.plane, box).low <= config.object_height_max;
     });
   };
+  struct Flat {
+    std::uint32_t point;
+    std::size_t table;
+    std::size_t cell;
+  };
+  std::vector<Flat> flat_points;
+  std::map<std::pair<std::size_t, std::size_t>, int> more_lies_than_rises;  // by table and cell
   ScanBlocks(z).visit(isOverTable, [&](std::uint32_t i) {
     if (taken[i]) return;
     const Eigen::Vector3d p = z.world_points[i].cast<double>();
-    for (auto& table : tables) {
+    for (std::size_t t = 0; t < tables.size(); ++t) {
+      const TableSurface& table = tables[t];
       const double height = table.plane.signedDistance(p);
       if (height > config.object_height_max) continue;
       const auto cell = table.grid.cellOf(p.x(), p.y());
@@ -119,15 +129,20 @@ void attachStrays(const Measurement& z, std::vector<TableSurface>& tables, std::
       const double flat = config.certainHeight((p - origin).norm());
       if (height < -flat) continue;
       if (std::abs(height) <= flat) {
-        table.points.push_back(i);
+        flat_points.push_back({i, t, cell});
+        ++more_lies_than_rises[{t, cell}];
       } else if (const auto object = object_points.nearest(z.world_points[i])) {
         objects[*object].push_back(i);
       } else {
+        --more_lies_than_rises[{t, cell}];
         continue;
       }
       break;
     }
   });
+  for (const Flat& flat : flat_points) {  // what goes on upwards is a wall at the table's edge
+    if (more_lies_than_rises.at({flat.table, flat.cell}) > 0) tables[flat.table].points.push_back(flat.point);
+  }
   for (std::size_t k = 0; k < objects.size(); ++k) mergeAdded(objects[k], object_sizes[k]);
   for (std::size_t k = 0; k < tables.size(); ++k) mergeAdded(tables[k].points, table_sizes[k]);
 }

@@ -40,16 +40,44 @@ bool fits(const Eigen::AlignedBox2d& region, const Config& config) {
   return region.volume() / (config.outline_cell * config.outline_cell) < static_cast<double>(kMostCells);
 }
 
-/// Whether the patch is a surface and not a strip: what the noise of a wall leaves in a plane is thin.
-bool isBroad(const SurfaceGrid& grid, const CellMask& patch) {
-  constexpr double kLeastBreadth = 0.05;  // m
+/// m that a table is broader than what the noise of a wall leaves in its plane: that is as thin as the noise
+/// is among thousands of points, nearly four standard deviations to either side, where it is largest.
+double leastBreadth(const ScanBlocks& scan, const Plane& plane, const SurfaceGrid& grid,
+                    const CellMask& patch, const Config& config) {
+  constexpr double kLeastBreadth = 0.05;
+  const Eigen::Vector3d origin = scan.z().origin();
+  const double drop = plane.signedDistance(origin);
+  double farthest = 0.0;  // in the plan
+  for (std::size_t i = 0; i < patch.size(); ++i) {
+    if (patch[i]) farthest = std::max(farthest, (grid.center(i) - origin.head<2>()).norm());
+  }
+  return std::max(kLeastBreadth, 2.5 * config.noise(std::hypot(farthest, drop)) + grid.cellSize());
+}
+
+/// What is left of the patch and its holes without a border of half the breadth.
+CellMask coreOf(const SurfaceGrid& grid, const CellMask& patch, double breadth) {
   const CellMask closed = grid.extent(patch);
   CellMask gone(patch.size());
   for (std::size_t i = 0; i < patch.size(); ++i) gone[i] = closed[i] ? 0 : 1;
-  gone = grid.dilated(gone, kLeastBreadth / 2.0);
-  std::size_t core = 0;
-  for (const auto cell : gone) core += cell == 0;
-  return core * 10 > count(patch);
+  gone = grid.dilated(gone, breadth / 2.0);
+  for (auto& cell : gone) cell = cell ? 0 : 1;
+  return gone;
+}
+
+/// Whether the patch is a surface and not a strip.
+bool isBroad(const ScanBlocks& scan, const Plane& plane, const SurfaceGrid& grid, const CellMask& patch,
+             const Config& config) {
+  const CellMask core = coreOf(grid, patch, leastBreadth(scan, plane, grid, patch, config));
+  return count(core) * 10 > count(patch);
+}
+
+/// The patch without the strips at its border: a wall beside a table at the wall.
+CellMask withoutStrips(const ScanBlocks& scan, const Plane& plane, const SurfaceGrid& grid, CellMask patch,
+                       const Config& config) {
+  const double breadth = leastBreadth(scan, plane, grid, patch, config);
+  const CellMask broad = grid.dilated(coreOf(grid, patch, breadth), breadth / 2.0);
+  for (std::size_t i = 0; i < patch.size(); ++i) patch[i] = patch[i] && broad[i] ? 1 : 0;
+  return patch;
 }
 
 /// Whether what parts the strips of a patch stands on the same surface: within its hull less is open than is
@@ -93,7 +121,7 @@ std::vector<CellMask> tablePatches(const ScanBlocks& scan, const Plane& plane, c
     std::vector<CellMask> parts;
     for (auto& strip : strips) {
       const auto first = static_cast<std::size_t>(std::find(strip.begin(), strip.end(), 1) - strip.begin());
-      if (first == strip.size() || !around[first] || !isBroad(grid, strip)) continue;
+      if (first == strip.size() || !around[first] || !isBroad(scan, plane, grid, strip, config)) continue;
       for (std::size_t i = 0; i < joined.size(); ++i) joined[i] |= strip[i];
       parts.push_back(std::move(strip));
     }
@@ -164,7 +192,8 @@ std::optional<TableSurface> tableOf(const ScanBlocks& scan, const Plane& rough, 
   auto patches =
       tablePatches(scan, *plane, grid, static_cast<std::size_t>(config.min_table_area / cell_area), config);
   if (patches.empty()) return std::nullopt;
-  CellMask patch = std::move(patches.front());
+  CellMask patch = withoutStrips(scan, *plane, grid, std::move(patches.front()), config);
+  if (count(patch) == 0) return std::nullopt;
   const double height = meanHeight(grid, patch, *plane);
   if (height < config.table_height_min || height > config.table_height_max) return std::nullopt;
   if (std::abs(height) < kFloor) return std::nullopt;
