@@ -117,6 +117,43 @@ PointCloud level(double x_min, double x_max, double y_min, double y_max, double 
   return points;
 }
 
+// A table from its left end to its right, and one that stands at an angle to it.
+const Piece kLeftEnd{Structure::plane, level(-0.6, -0.3, -0.4, 0.4, 0.7)};
+const Piece kRightEnd{Structure::plane, level(0.2, 0.6, -0.4, 0.4, 0.7)};
+const Piece kWholeTable{Structure::plane, level(-0.6, 0.6, -0.4, 0.4, 0.7)};
+
+TEST(Identity, ATableSeenInPartsIsOneWhenItIsSeenWhole) {
+  const Piece on_left{Structure::cluster, front(-0.05, 0.05, 0.7, 0.8, -0.45)};
+  std::vector<Scan> scans{Scan(0, {kFloor, kLeftEnd, on_left}, kOrigin),
+                          Scan(1, {kFloor, kRightEnd}, kOrigin), Scan(2, {kFloor, kWholeTable}, kOrigin)};
+  Mapper m(bySurface());
+  m.integrate(scans[0]);
+  const NodeId left{1};
+  const NodeId object{2};
+  m.integrate(scans[1]);
+  const NodeId right{3};
+  ASSERT_EQ(m.h().node(left).label(), labels::table);
+  ASSERT_EQ(m.h().node(right).label(), labels::table);
+  ASSERT_EQ(m.h().node(object).parent(), left);
+  const UpdateReport report = m.integrate(scans[2]);
+  EXPECT_EQ(count(report, NodeEventKind::merged), 1U);
+  EXPECT_FALSE(m.h().contains(left));  // the larger one goes on
+  EXPECT_EQ(m.h().node(object).parent(), right);
+  EXPECT_GE(m.h().node(right).map().occupiedVoxels().size(), 24U * 16U);  // of 5 cm: 1.2 by 0.8 m
+}
+
+TEST(Identity, TablesWhoseBoxesMeetStayApart) {
+  PointCloud turned;  // beside the whole table, its corner all but in the middle of its side
+  for (const auto& p : level(0.0, 0.6, 0.0, 0.6, 0.7))
+    turned.push_back(Eigen::AngleAxisf(0.785F, Eigen::Vector3f::UnitZ()) * p + Eigen::Vector3f(0, 0.45F, 0));
+  const Piece beside{Structure::plane, turned};
+  Mapper m(bySurface());
+  for (std::uint64_t k = 0; k < 6; ++k) {
+    const UpdateReport report = m.integrate(Scan(k, {kFloor, kWholeTable, beside}, kOrigin));
+    EXPECT_EQ(count(report, NodeEventKind::merged), 0U);
+  }
+}
+
 /// The front of one thing seen from ahead, the back of one seen from behind, and what stands on both.
 std::size_t objectsUnderLoad(double height_of_back) {
   const PointCloud load_top = level(0.2, 0.26, -0.04, 0.04, 0.9);

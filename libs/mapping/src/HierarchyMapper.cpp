@@ -83,7 +83,10 @@ UpdateReport HierarchyMapper::integrate(const Measurement& z, PreparedScan prepa
   {
     const StageTimer timer(report.seconds.associate);
     followMovedObjects(z, parts, evidence, report);
-    if (config_.seam_votes) settleIdentity(z, prepared, evidence, report);
+    if (config_.seam_votes) {
+      mergeBridged(z, parts, report);
+      settleIdentity(z, prepared, evidence, report);
+    }
   }
 
   // The background first, then planes, then clusters: so that parents exist when their children come.

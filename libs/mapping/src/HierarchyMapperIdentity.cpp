@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <utility>
 
+#include "BridgedNodes.h"
 #include "NodeEvidence.h"
 #include "NodeRegions.h"
 #include "SurfacePoints.h"
@@ -94,17 +95,41 @@ void HierarchyMapper::settleIdentity(const Measurement& z, PreparedScan& prepare
   divideSegments(regions, held, near, parts);
 }
 
+/// A table that was seen in parts is one as soon as a scan shows them as one plane. Seams between planes have
+/// no votes: what S takes for one plane, however seldom, has no step.
+void HierarchyMapper::mergeBridged(const Measurement& z, const std::vector<LabelledPart>& parts,
+                                   UpdateReport& report) {
+  for (const LabelledPart& part : parts) {
+    if (part.structure != Structure::plane) continue;
+    std::vector<NodeId> near;
+    for (const NodeId id : hierarchy_.idsNear(worldBounds(part.box))) {
+      if (hierarchy_.node(id).label() == part.label) near.push_back(id);
+    }
+    if (near.size() < 2) continue;
+    std::vector<NodeId> bridged = bridgedNodes(hierarchy_, near, part.world_points);
+    keepLargestFirst(bridged);
+    for (std::size_t k = 1; k < bridged.size(); ++k) {
+      const std::vector<NodeId> children = hierarchy_.node(bridged[k]).children();
+      for (const NodeId child : children) hierarchy_.reparent(child, bridged[0]);
+      mergeInto(bridged[0], bridged[k], z.scan, report);
+    }
+  }
+}
+
+void HierarchyMapper::keepLargestFirst(std::vector<NodeId>& owners) const {
+  const auto size = [&](NodeId n) { return hierarchy_.node(n).map().occupiedVoxels().size(); };
+  std::stable_sort(owners.begin(), owners.end(), [&](NodeId a, NodeId b) { return size(a) > size(b); });
+}
+
 bool HierarchyMapper::isOfKind(NodeId id, const Label& label) const {
   return strategies_.labeling->areOfOneKind(std::as_const(hierarchy_).node(id).label(), label);
 }
 
 void HierarchyMapper::mergeOwners(const Measurement& z, const SurfaceRegions& regions, NodeRegions& held,
                                   std::vector<LabelledPart>& parts, UpdateReport& report) {
-  const auto size = [&](NodeId n) { return hierarchy_.node(n).map().occupiedVoxels().size(); };
   for (Region region = 0; region < regions.count(); ++region) {
     std::vector<NodeId> owners = held.ownersOf(region);
-    // The largest goes on, of equals the oldest.
-    std::stable_sort(owners.begin(), owners.end(), [&](NodeId a, NodeId b) { return size(a) > size(b); });
+    keepLargestFirst(owners);
     for (std::size_t k = 1; k < owners.size(); ++k) {
       if (!isOfKind(owners[k], hierarchy_.node(owners[0]).label())) continue;
       mergeInto(owners[0], owners[k], z.scan, report);

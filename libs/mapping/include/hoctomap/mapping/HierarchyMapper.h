@@ -137,6 +137,9 @@ class HierarchyMapper {
   void settleIdentity(const Measurement& z, PreparedScan& prepared, const NodeEvidence& evidence,
                       UpdateReport& report);
   [[nodiscard]] bool isOfKind(NodeId id, const Label& label) const;
+  /// The largest of the parts of one thing keeps its id, of equals the oldest.
+  void keepLargestFirst(std::vector<NodeId>& owners) const;
+  void mergeBridged(const Measurement& z, const std::vector<LabelledPart>& parts, UpdateReport& report);
   void mergeOwners(const Measurement& z, const SurfaceRegions& regions, NodeRegions& held,
                    std::vector<LabelledPart>& parts, UpdateReport& report);
   void splitHolders(const Measurement& z, const SurfaceRegions& regions, NodeRegions& held,
