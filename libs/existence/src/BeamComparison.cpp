@@ -144,7 +144,11 @@ BeamComparison::Counts BeamComparison::count(const std::vector<Beam>& beams, con
     // A beam that ends on what is mapped there anyway is not the node's, whatever the error of the pose.
     const bool on_node = range <= beam.farthest + beam.tolerance &&
                          std::abs(range - beam.expected) <= std::abs(measured - background);
-    if (on_node) {
+    counts.nearer_to_node += on_node;
+    // Where the background is nearer than beams are sure of, one that ends there may end on the node as well.
+    const bool may_be_on_node = std::abs(background - beam.expected) < beam.tolerance &&
+                                std::abs(measured - background) < beam.tolerance;
+    if (on_node || (may_be_on_node && !beam.clear)) {
       ++(beam.clear ? counts.present : counts.unclear_present);
     } else {
       ++(beam.clear ? counts.absent : counts.unclear_absent);
@@ -183,7 +187,7 @@ BeamComparison::Offset BeamComparison::bestOffset(const Offset& about) const {
     if (du * du + dv * dv > reach * reach) return;
     measure(beams, about.du + du, about.dv + dv, ends);
     Offset offset{about.du + du, about.dv + dv, depthOffset(beams, ends, about.depth, scratch)};
-    const double share = static_cast<double>(count(beams, ends, offset.depth).present_at_most()) /
+    const double share = static_cast<double>(count(beams, ends, offset.depth).nearer_to_node) /
                          static_cast<double>(beams.size());
     const double depth = config_.pose_depth > 0.0 ? (offset.depth - about.depth) / config_.pose_depth : 0.0;
     offset.doubt = kOffsetDoubt * ((du * du + dv * dv) / std::max(1.0, reach * reach) + depth * depth);

@@ -52,6 +52,7 @@ class BeamComparison {
     std::uint32_t absent = 0;
     std::uint32_t unclear_present = 0;  ///< they may end on what is right behind the node as well
     std::uint32_t unclear_absent = 0;
+    std::uint32_t nearer_to_node = 0;  ///< all that end on the node rather than on what is behind it
     std::uint32_t occluded = 0;
     std::uint32_t no_return = 0;
 
