@@ -43,6 +43,32 @@ TEST(NodeMap, TheModelOfItsLabelReachesTheTree) {
   EXPECT_NEAR(map.tree().getOccupancyThres(), 0.6, 1e-6);
 }
 
+TEST(NodeMap, BoxesAndRegionsAreThoseOfAllVoxels) {
+  test::Rng rng(3);
+  NodeMap map(0.02, {});
+  for (int scan = 0; scan < 6; ++scan) {  // boxes grow, and shrink where beams clear
+    Beams beams;
+    beams.origin = test::uniformVector(rng, -2.0, 2.0).cast<float>();
+    beams.hits = test::boxSurface(rng, test::randomBox(rng, 1.0), 1500);
+    map.update(*makeReferenceScanUpdate(), beams);
+    Eigen::AlignedBox3d box;
+    const Eigen::Vector3d half = Eigen::Vector3d::Constant(0.01);
+    const PointCloud all = map.occupiedVoxels();
+    for (const auto& p : all) {
+      box.extend(Eigen::AlignedBox3d(p.cast<double>() - half, p.cast<double>() + half));
+    }
+    EXPECT_TRUE(map.occupiedBox().isApprox(box, 1e-6)) << scan;
+    const Eigen::AlignedBox3d region = test::randomBox(rng, 1.0).box;
+    const PointCloud inside = map.occupiedVoxelsIn(region);
+    const auto isInside = [&](const Eigen::Vector3f& p) { return region.contains(p.cast<double>()); };
+    const auto least = std::count_if(all.begin(), all.end(), isInside);
+    EXPECT_EQ(std::count_if(inside.begin(), inside.end(), isInside), least);
+    std::size_t found = 0;  // besides, only what shares a pruned cube with the region, in the same order
+    for (const auto& p : all) found += found < inside.size() && p == inside[found];
+    EXPECT_EQ(found, inside.size());
+  }
+}
+
 TEST(NodeMap, CountsAndListsVoxelsAtItsResolution) {
   test::Rng rng(1);
   // A solid block makes pruned occupied leaves; the counts must not depend on pruning.

@@ -95,19 +95,26 @@ Support renderSupport(const MapHierarchy& hierarchy, const RangeView& view,
       front.overlay(silhouettes[i]->nearest);
   }
   const double pixels = 2.0 * range / view.focal();  // that a voxel's square may stick out
-  const Eigen::AlignedBox3d bounds = view.worldBounds(range);
-  for (const NodeId id : hierarchy.idsNear({bounds.min().array() - pixels, bounds.max().array() + pixels})) {
+  const Eigen::AlignedBox3d seen = view.worldBounds(range);
+  const Eigen::AlignedBox3d bounds(seen.min().array() - pixels, seen.max().array() + pixels);
+  for (const NodeId id : hierarchy.idsNear(bounds)) {
     const MapNode& node = hierarchy.node(id);
     if (id != kRootId && node.children().empty()) continue;
-    if (!view.mayShow(hierarchy.box(id).padded(node.map().resolution() + pixels), range)) continue;
-    const Eigen::Isometry3f world_T_node = toIsometry(hierarchy.world_T_node(id)).cast<float>();
-    const auto edge = static_cast<float>(node.map().resolution());
+    const double edge = node.map().resolution();
+    if (!view.mayShow(hierarchy.box(id).padded(edge + pixels), range)) continue;
+    const Eigen::Isometry3d world_T_node = toIsometry(hierarchy.world_T_node(id));
     // Half a diagonal: by as much a coarse voxel errs.
-    const bool is_exact = 0.87 * node.map().resolution() <= config.pose_depth + config.tolerance;
-    for (const auto& voxel : node.map().occupiedVoxels()) {
-      const auto pixel = view.project(world_T_node * voxel);
-      if (!pixel) continue;
-      (is_exact ? support.exact : support.behind).splatBehind(front, *pixel, view.focal(), edge, is_exact);
+    const bool is_exact = 0.87 * edge <= config.pose_depth + config.tolerance;
+    // The root may be a building: of it what is in view.
+    const PointCloud of_root = id == kRootId
+                                   ? node.map().occupiedVoxelsIn(bounds.transformed(world_T_node.inverse()))
+                                   : PointCloud{};
+    const PointCloud& voxels = id == kRootId ? of_root : node.map().occupiedVoxels();
+    RangeBuffer& buffer = is_exact ? support.exact : support.behind;
+    const Eigen::Isometry3f world_T_voxels = world_T_node.cast<float>();
+    for (const auto& voxel : voxels) {
+      if (const auto pixel = view.project(world_T_voxels * voxel))
+        buffer.splatBehind(front, *pixel, view.focal(), static_cast<float>(edge), is_exact);
     }
   }
   support.behind.overlay(support.exact);

@@ -278,8 +278,12 @@ void HierarchyMapper::updateMaps(const Measurement& z, const std::vector<Labelle
   std::vector<ScanUpdateReport> results(updates.size());
   forEachIndex(updates.size(), [&](std::size_t i) {
     results[i] = updateNodeMap(updates[i], z, *strategies_.update);
-    // All that follows asks for the box of a node: here in parallel. A single map has no use for it.
-    if (config_.bounded) static_cast<void>(updates[i].node->map().occupiedBox());
+    // All that follows asks for the boxes of nodes, and but for the root's for their voxels: here in
+    // parallel. A single map has no use for either.
+    if (!config_.bounded) return;
+    const MapNode& node = *updates[i].node;
+    static_cast<void>(node.map().occupiedBox());
+    if (node.id() != kRootId) static_cast<void>(node.map().occupiedVoxels());
   });
 
   std::vector<NodeId> created;

@@ -87,7 +87,6 @@ ScanUpdateReport updateNodeMap(const NodeUpdate& update, const Measurement& z, c
   beams.passing = points.others;
   requireMemory(update, beams);
   const ScanUpdateReport report = map.update(engine, beams);
-  static_cast<void>(map.occupiedBox());  // asked for soon, and here nodes are updated in parallel
   update.node->last_scan = z.scan;
   update.node->version = z.scan;
   return report;

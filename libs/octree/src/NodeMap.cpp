@@ -33,6 +33,25 @@ Eigen::Vector3d centerOf(const octomap::OcTree& tree, const octomap::OcTreeKey& 
   return {at(0), at(1), at(2)};
 }
 
+/// The voxels `level` levels below: 2^level along each edge, the first with the key.
+Eigen::AlignedBox3d cubeOf(const octomap::OcTree& tree, const octomap::OcTreeKey& first, unsigned level) {
+  const Eigen::Vector3d half = Eigen::Vector3d::Constant(0.5 * tree.getResolution());
+  return {centerOf(tree, first) - half,
+          centerOf(tree, first, Eigen::Array3i::Constant((1 << level) - 1)) + half};
+}
+
+/// Adds the centres of the occupied voxels of leaves that `enter` lets in.
+template <typename Enter>
+void collectOccupied(const octomap::OcTree& tree, PointCloud& voxels, const Enter& enter) {
+  const auto visit = [&](const octomap::OcTreeKey& first, unsigned level) {
+    const int edge = 1 << level;
+    for (int x = 0; x < edge; ++x)
+      for (int y = 0; y < edge; ++y)
+        for (int z = 0; z < edge; ++z) voxels.push_back(centerOf(tree, first, {x, y, z}).cast<float>());
+  };
+  engine::OccupiedLeaves(tree, visit, enter);
+}
+
 bool isBesideOccupied(const octomap::OcTree& tree, const octomap::OcTreeKey& key) {
   for (int i = 0; i < 27; ++i) {
     octomap::OcTreeKey there = key;
@@ -72,12 +91,12 @@ NodeMap::NodeMap(std::unique_ptr<octomap::OcTree> tree, const OccupancyModel& mo
 }
 
 ScanUpdateReport NodeMap::update(const ScanUpdate& engine, const Beams& beams) {
-  occupied_valid_ = false;
+  changed();
   return engine.apply(*tree_, beams);
 }
 
 void NodeMap::absorb(const NodeMap& other, const Eigen::Isometry3d& this_T_other) {
-  occupied_valid_ = false;
+  changed();
   octomap::OcTree source(*other.tree_);
   source.expand();
   for (const bool occupied : {true, false}) {
@@ -92,7 +111,7 @@ void NodeMap::absorb(const NodeMap& other, const Eigen::Isometry3d& this_T_other
 }
 
 void NodeMap::add(const NodeMap& other, const Eigen::Isometry3d& this_T_other) {
-  occupied_valid_ = false;
+  changed();
   octomap::OcTree source(*other.tree_);
   source.expand();
   const bool same_grid = this_T_other.matrix().isIdentity(0.0) && source.getResolution() == resolution();
@@ -106,7 +125,8 @@ void NodeMap::add(const NodeMap& other, const Eigen::Isometry3d& this_T_other) {
 
 void NodeMap::give(NodeMap& other, const Eigen::Isometry3d& other_T_this,
                    const std::function<bool(const Eigen::Vector3f&)>& which) {
-  occupied_valid_ = other.occupied_valid_ = false;
+  changed();
+  other.changed();
   const auto center = [this](const octomap::OcTreeKey& key) { return centerOf(*tree_, key); };
   engine::takeVoxels(
       *tree_, [&](const octomap::OcTreeKey& key) { return which(center(key).cast<float>()); },
@@ -134,7 +154,7 @@ void NodeMap::cede(const PointCloud& points) {
   for (const auto& key : near) {
     const octomap::OcTreeNode* voxel = tree_->search(key);
     if (voxel == nullptr || !tree_->isNodeOccupied(voxel)) continue;
-    occupied_valid_ = false;
+    changed();
     if (voxel->getLogOdds() - tree_->getProbHitLog() < tree_->getOccupancyThresLog()) {
       lost.insert(key);
     } else {
@@ -148,33 +168,35 @@ void NodeMap::cede(const PointCloud& points) {
 }
 
 const PointCloud& NodeMap::occupiedVoxels() const {
-  if (!occupied_valid_) collectOccupied();
+  if (!voxels_valid_) {
+    occupied_voxels_.clear();
+    collectOccupied(*tree_, occupied_voxels_, [](const octomap::OcTreeKey&, unsigned) { return true; });
+    voxels_valid_ = true;
+  }
   return occupied_voxels_;
 }
 
-const Eigen::AlignedBox3d& NodeMap::occupiedBox() const {
-  if (!occupied_valid_) collectOccupied();
-  return occupied_box_;
+PointCloud NodeMap::occupiedVoxelsIn(const Eigen::AlignedBox3d& box) const {
+  PointCloud voxels;
+  collectOccupied(*tree_, voxels, [&](const octomap::OcTreeKey& first, unsigned level) {
+    return cubeOf(*tree_, first, level).intersects(box);
+  });
+  return voxels;
 }
 
-void NodeMap::collectOccupied() const {
-  occupied_voxels_.clear();
-  occupied_box_.setEmpty();
-  const Eigen::Vector3d half = Eigen::Vector3d::Constant(0.5 * tree_->getResolution());
-  const auto visit = [&](const octomap::OcTreeKey& first, unsigned level) {
-    const int edge = 1 << level;
-    for (int x = 0; x < edge; ++x) {
-      for (int y = 0; y < edge; ++y) {
-        for (int z = 0; z < edge; ++z) {
-          const Eigen::Vector3d center = centerOf(*tree_, first, {x, y, z});
-          occupied_voxels_.push_back(center.cast<float>());
-          occupied_box_.extend(Eigen::AlignedBox3d(center - half, center + half));
-        }
-      }
-    }
-  };
-  engine::OccupiedLeaves(*tree_, visit);
-  occupied_valid_ = true;
+const Eigen::AlignedBox3d& NodeMap::occupiedBox() const {
+  if (!box_valid_) {
+    occupied_box_.setEmpty();
+    const auto visit = [&](const octomap::OcTreeKey& first, unsigned level) {
+      occupied_box_.extend(cubeOf(*tree_, first, level));
+    };
+    const auto isOutside = [&](const octomap::OcTreeKey& first, unsigned level) {
+      return !occupied_box_.contains(cubeOf(*tree_, first, level));
+    };
+    engine::OccupiedLeaves(*tree_, visit, isOutside);
+    box_valid_ = true;
+  }
+  return occupied_box_;
 }
 
 VoxelExtent NodeMap::extent() const {

@@ -68,7 +68,11 @@ class NodeMap {
   /// Centres of the occupied voxels in the node's frame, at the map's resolution, in octree order.
   [[nodiscard]] const PointCloud& occupiedVoxels() const;
 
+  /// Those of them that meet a box in the node's frame: looks at no other part of the tree.
+  [[nodiscard]] PointCloud occupiedVoxelsIn(const Eigen::AlignedBox3d& box) const;
+
   /// Box of the occupied voxels in the node's frame (whole voxels, no padding); empty if there are none.
+  /// Looks at the outermost of them only.
   [[nodiscard]] const Eigen::AlignedBox3d& occupiedBox() const;
 
   [[nodiscard]] VoxelCounts countVoxels() const { return extent().voxels; }
@@ -76,13 +80,14 @@ class NodeMap {
   [[nodiscard]] VoxelExtent extent() const;
 
  private:
-  void collectOccupied() const;
+  void changed() { box_valid_ = voxels_valid_ = false; }
 
   std::unique_ptr<octomap::OcTree> tree_;
   OccupancyModel model_;
   // Derived from the tree on first use after a change; one thread works on a node at a time.
-  mutable bool occupied_valid_ = false;
+  mutable bool voxels_valid_ = false;
   mutable PointCloud occupied_voxels_;
+  mutable bool box_valid_ = false;
   mutable Eigen::AlignedBox3d occupied_box_;
 };
 
