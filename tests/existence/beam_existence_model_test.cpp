@@ -87,6 +87,7 @@ TEST(BeamExistenceModel, AHiddenNodeNeverChanges) {
   for (const bool there : {true, false}) {
     const Evidence e = scene.see(look({{1.2, 0.0, there}, {0.5, 0.0}, {0.5, 0.03}, {0.5, -0.03}}));
     EXPECT_FALSE(e.informative);
+    EXPECT_FALSE(e.in_sight);
     EXPECT_EQ(e.p_measurement, parameters.prior);
     EXPECT_GT(e.occluded, 10 * (e.present + e.absent));
   }
@@ -165,6 +166,7 @@ TEST(BeamExistenceModel, WhatStandsBarelyBeforeItsSupportIsNotDisputedByNoise) {
   for (std::uint64_t seed = 1; seed <= 20; ++seed) {
     for (const double gap : {0.004, 0.007, 0.010})
       EXPECT_FALSE(seePlateOnBoard(gap, true, seed).contradicts()) << gap << ", seed " << seed;
+    EXPECT_TRUE(seePlateOnBoard(0.004, false, seed).in_sight);
     EXPECT_TRUE(seePlateOnBoard(0.05, false, seed).contradicts()) << seed;
   }
 }

@@ -54,11 +54,58 @@ TEST_F(OctreeFile, StockReadsBoth) {
   }
 }
 
-TEST_F(OctreeFile, BtHasTheBytesOfStock) {
-  octomap::OcTree copy(tree_);
-  std::ostringstream stock;
-  copy.writeBinary(stock);
-  EXPECT_EQ(btBytes(tree_), stock.str());
+void expectBytesOfStock(const octomap::OcTree& tree, const std::string& what) {
+  std::ostringstream ot;
+  tree.write(ot);
+  EXPECT_EQ(otBytes(tree), ot.str()) << what;
+  octomap::OcTree copy(tree);
+  std::ostringstream bt;
+  copy.writeBinary(bt);
+  EXPECT_EQ(btBytes(tree), bt.str()) << what;
+}
+
+TEST_F(OctreeFile, BothHaveTheBytesOfStock) {
+  expectBytesOfStock(tree_, "a map");
+  for (std::uint64_t seed = 1; seed <= 30;
+       ++seed) {  // blocks of one value and of several, by any order of updates
+    test::Rng rng(seed);
+    octomap::OcTree tree(0.1);
+    for (int block = 0; block < 6; ++block) {
+      const int edge = 1 << static_cast<int>(rng() % 5);
+      octomap::OcTreeKey first;
+      for (unsigned axis = 0; axis < 3; ++axis)
+        first[axis] = static_cast<octomap::key_type>(32768 + edge * static_cast<int>(rng() % 4));
+      const bool lazy = static_cast<int>(rng() % 2) == 0;
+      for (int i = 0; i < edge * edge * edge; ++i) {
+        const octomap::OcTreeKey key(static_cast<octomap::key_type>(first[0] + i / (edge * edge)),
+                                     static_cast<octomap::key_type>(first[1] + i / edge % edge),
+                                     static_cast<octomap::key_type>(first[2] + i % edge));
+        // Values that differ, of one side of the threshold: they are one in a `.bt` only.
+        tree.updateNode(key, static_cast<float>((block % 2 == 0 ? 0.9 : -0.9) * test::uniform(rng, 0.5, 1.0)),
+                        lazy);
+      }
+    }
+    tree.updateInnerOccupancy();
+    expectBytesOfStock(tree, "seed " + std::to_string(seed));
+    tree.prune();
+    expectBytesOfStock(tree, "pruned, seed " + std::to_string(seed));
+    tree.expand();
+    expectBytesOfStock(tree, "expanded, seed " + std::to_string(seed));
+  }
+}
+
+TEST_F(OctreeFile, StockPrunesNothingAboveALevelWithoutAnythingToPrune) {
+  octomap::OcTree tree(0.1);
+  for (unsigned i = 0; i < 8; ++i) {  // eight leaves two levels up, of values that only a `.bt` makes one
+    for (unsigned j = 0; j < 64; ++j) {
+      const auto at = [&](unsigned axis) {
+        return static_cast<octomap::key_type>(32768 + 4 * (i >> axis & 1U) + (j >> (2 * axis) & 3U));
+      };
+      tree.updateNode(octomap::OcTreeKey(at(0), at(1), at(2)), 0.5F + 0.1F * static_cast<float>(i));
+    }
+  }
+  ASSERT_EQ(tree.getNumLeafNodes(), 8U);
+  expectBytesOfStock(tree, "eight leaves");
 }
 
 TEST_F(OctreeFile, WritingBtLeavesTheTree) {

@@ -75,6 +75,18 @@ TEST(Confirmation, WhatMoreViewsPassOverThanShowDoesNotEnterAtTheEnd) {
   EXPECT_TRUE(m.h().node(kCupNode).confirmation.waits);
 }
 
+TEST(Confirmation, NorDoesWhatOtherViewsHaveInSightWithoutATraceOfIt) {
+  for (const bool in_sight : {true, false}) {
+    Mapper m(confirmedBy(2));
+    m.integrate(Scan(0, {kFloor, kTable, kCup}));
+    Evidence low;  // too near to the table for any beam to tell
+    low.in_sight = in_sight;
+    (*m.evidence)[kCupNode] = low;
+    for (std::uint64_t k = 1; k <= 2; ++k) m.integrate(Scan(k, {kFloor, kTable}));
+    EXPECT_EQ(m.mapper.finish(2, 102.0).events.empty(), in_sight);
+  }
+}
+
 TEST(Confirmation, NothingHangsUnderANodeThatWaits) {
   Mapper m(confirmedBy(2));
   m.integrate(Scan(0, {kFloor, kTable, kCup, kBox}));

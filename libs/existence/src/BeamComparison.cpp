@@ -249,6 +249,7 @@ Evidence BeamComparison::evidence(double share_in_view, const ExistenceParameter
   const auto isEnough = [&](double n) {
     return n >= config_.min_beams && n >= config_.min_visible * all && share_in_view >= config_.min_in_view;
   };
+  e.in_sight = isEnough(counts.reached());
   double n = counts.present + counts.absent;
   double share_present = counts.present / n;
   e.informative = isEnough(n) && n >= 0.3 * (n + counts.unclear_present + counts.unclear_absent);

@@ -12,6 +12,7 @@
 #include "NumberText.h"
 #include "hoctomap/geometry/Errors.h"
 #include "hoctomap/io/EscapedText.h"
+#include "hoctomap/octree/TreeBytes.h"
 
 namespace hoctomap {
 namespace {
@@ -132,31 +133,24 @@ Header checkedOtHeader(std::string_view bytes, const std::string& name) {
   return header;
 }
 
-template <typename Write>
-std::string inMemory(Write write) {
-  std::ostringstream out(std::ios::binary);
-  out.imbue(std::locale::classic());
-  write(out);
-  return std::move(out).str();
+/// A file of OctoMap's.
+std::string fileOf(std::string_view first_line, const octomap::OcTree& tree, const TreeBytes& nodes) {
+  std::ostringstream header;
+  header.imbue(std::locale::classic());
+  header << first_line << "\n# (feel free to add / change comments, but leave the first line as it is!)\n#\n";
+  header << "id " << tree.getTreeType() << "\nsize " << nodes.nodes << "\nres " << tree.getResolution()
+         << "\ndata\n";
+  return std::move(header).str() + nodes.bytes;
 }
 
 }  // namespace
 
 std::string otBytes(const octomap::OcTree& tree) {
-  return inMemory([&](std::ostream& out) { tree.write(out); });
+  return fileOf(kOtBegin, tree, otNodes(tree));
 }
 
 std::string btBytes(const octomap::OcTree& tree) {
-  // As OcTree::writeBinary does, which also talks on stderr.
-  octomap::OcTree copy(tree);
-  copy.toMaxLikelihood();
-  copy.prune();
-  return inMemory([&](std::ostream& out) {
-    out << kBtBegin << "\n# (feel free to add / change comments, but leave the first line as it is!)\n#\n";
-    out << "id " << copy.getTreeType() << "\nsize " << copy.size() << "\nres " << copy.getResolution()
-        << "\ndata\n";
-    copy.writeBinaryData(out);
-  });
+  return fileOf(kBtBegin, tree, btNodes(tree));
 }
 
 void checkOt(std::string_view bytes, const std::string& name) {

@@ -27,7 +27,7 @@ void HierarchyMapper::confirmNodes(const std::vector<LabelledPart>& parts, const
                     [id](const auto& part) { return part.node == id && !part.joined_with; })) {
       if (++confirmation.shown >= config_.confirm_scans) enterMap(id, report);
     } else if (const auto seen = evidence.by_node.find(id); seen != evidence.by_node.end()) {
-      confirmation.missed += seen->second.informative ? 1U : 0U;
+      confirmation.missed += seen->second.informative || seen->second.in_sight ? 1U : 0U;
     }
   }
   for (const NodeId id : waiting_) {

@@ -5,7 +5,7 @@
 #include <stdexcept>
 #include <utility>
 
-#include "OccupiedLeaves.h"
+#include "Leaves.h"
 #include "VoxelTransfer.h"
 
 namespace hoctomap {
@@ -17,11 +17,6 @@ std::unique_ptr<octomap::OcTree> emptyTree(double resolution) {
     throw std::invalid_argument("resolution of a node map must be positive and finite");
   }
   return std::make_unique<octomap::OcTree>(resolution);
-}
-
-/// Voxels along one edge of a leaf at `depth`.
-std::uint64_t voxelsPerEdge(const octomap::OcTree& tree, unsigned depth) {
-  return std::uint64_t{1} << (tree.getTreeDepth() - depth);
 }
 
 /// Centre of a voxel, a few voxels on from the one with the key.
@@ -43,13 +38,15 @@ Eigen::AlignedBox3d cubeOf(const octomap::OcTree& tree, const octomap::OcTreeKey
 /// Adds the centres of the occupied voxels of leaves that `enter` lets in.
 template <typename Enter>
 void collectOccupied(const octomap::OcTree& tree, PointCloud& voxels, const Enter& enter) {
-  const auto visit = [&](const octomap::OcTreeKey& first, unsigned level) {
+  const auto visit = [&](const engine::Node&, const octomap::OcTreeKey& first, unsigned level) {
     const int edge = 1 << level;
     for (int x = 0; x < edge; ++x)
       for (int y = 0; y < edge; ++y)
         for (int z = 0; z < edge; ++z) voxels.push_back(centerOf(tree, first, {x, y, z}).cast<float>());
   };
-  engine::OccupiedLeaves(tree, visit, enter);
+  engine::Leaves(tree, visit, [&](const engine::Node& node, const octomap::OcTreeKey& first, unsigned level) {
+    return tree.isNodeOccupied(node) && enter(first, level);
+  });
 }
 
 bool isBesideOccupied(const octomap::OcTree& tree, const octomap::OcTreeKey& key) {
@@ -187,13 +184,13 @@ PointCloud NodeMap::occupiedVoxelsIn(const Eigen::AlignedBox3d& box) const {
 const Eigen::AlignedBox3d& NodeMap::occupiedBox() const {
   if (!box_valid_) {
     occupied_box_.setEmpty();
-    const auto visit = [&](const octomap::OcTreeKey& first, unsigned level) {
+    const auto visit = [&](const engine::Node&, const octomap::OcTreeKey& first, unsigned level) {
       occupied_box_.extend(cubeOf(*tree_, first, level));
     };
-    const auto isOutside = [&](const octomap::OcTreeKey& first, unsigned level) {
-      return !occupied_box_.contains(cubeOf(*tree_, first, level));
+    const auto sticksOut = [&](const engine::Node& node, const octomap::OcTreeKey& first, unsigned level) {
+      return tree_->isNodeOccupied(node) && !occupied_box_.contains(cubeOf(*tree_, first, level));
     };
-    engine::OccupiedLeaves(*tree_, visit, isOutside);
+    engine::Leaves(*tree_, visit, sticksOut);
     box_valid_ = true;
   }
   return occupied_box_;
@@ -203,17 +200,18 @@ VoxelExtent NodeMap::extent() const {
   VoxelExtent extent;
   const double resolution = tree_->getResolution();
   const double half_edge = std::ldexp(1.0, static_cast<int>(tree_->getTreeDepth()) - 1);  // of the whole tree
-  for (auto leaf = tree_->begin_leafs(); leaf != tree_->end_leafs(); ++leaf) {
-    const auto edge = voxelsPerEdge(*tree_, leaf.getDepth());
-    const octomap::OcTreeKey first = leaf.getIndexKey();  // of the leaf's lowest voxel
+  const auto visit = [&](const engine::Node& leaf, const octomap::OcTreeKey& first, unsigned level) {
+    const auto edge = std::uint64_t{1} << level;
     const Eigen::Array3d low = Eigen::Array3d(first[0], first[1], first[2]) - half_edge;
     const Eigen::AlignedBox3d cube(resolution * low.matrix(),
                                    resolution * (low + static_cast<double>(edge)).matrix());
-    const bool occupied = tree_->isNodeOccupied(*leaf);
+    const bool occupied = tree_->isNodeOccupied(leaf);
     extent.known.extend(cube);
     if (occupied) extent.occupied.extend(cube);
     (occupied ? extent.voxels.occupied : extent.voxels.free) += edge * edge * edge;
-  }
+  };
+  engine::Leaves(*tree_, visit,
+                 [](const engine::Node&, const octomap::OcTreeKey&, unsigned) { return true; });
   return extent;
 }
 

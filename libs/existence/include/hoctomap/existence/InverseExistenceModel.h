@@ -20,6 +20,7 @@ struct Evidence {
   /// m in the world: how far off the node the beams are that fit it best. An error of the scan's pose shifts
   /// all that it shows; what is shifted otherwise has moved.
   Eigen::Vector3d shift = Eigen::Vector3d::Zero();
+  bool in_sight = false;  ///< enough beams get to its place, whether or not they can say anything
 
   /// Share of the beams that reach the node's place that end on the node; 0 if none do.
   [[nodiscard]] double presentShare() const {

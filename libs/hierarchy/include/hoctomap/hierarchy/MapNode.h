@@ -29,7 +29,7 @@ struct Confirmation {
   bool waits = false;
   bool entered_at_end = false;  ///< of the log, unconfirmed: waits again if the log goes on
   std::uint64_t shown = 0;      ///< scans that gave it a segment, while it waits
-  std::uint64_t missed = 0;     ///< scans that showed its surface and gave it none
+  std::uint64_t missed = 0;     ///< scans that had its surface in sight and gave it none
   std::uint64_t points = 0;     ///< of the segment that it was made of
   bool enough = false;          ///< speaks for it to let it in if the log ended now
   bool operator==(const Confirmation&) const = default;

@@ -13,7 +13,7 @@ namespace hoctomap {
 /// a full disk.
 [[nodiscard]] std::string otBytes(const octomap::OcTree& tree);
 
-/// The stock `.bt` file (maximum likelihood) of a tree, made from a copy: OctoMap's writer changes the tree.
+/// The stock `.bt` file (maximum likelihood) of a tree, which stays as it is: OctoMap's writer changes it.
 [[nodiscard]] std::string btBytes(const octomap::OcTree& tree);
 
 /// Checks the bytes of an `.ot` file without recursion: strict header, depth at most 16, exactly the
