@@ -8,6 +8,7 @@
 #include <exception>
 #include <iterator>
 #include <memory>
+#include <utility>
 #include <vector>
 
 #include "MapNames.h"
@@ -28,15 +29,16 @@ NodeFiles::Made NodeFiles::make(const MapNode& node) {
         std::string(kNodesFolder) + "/" + nodeFileStem(node.id(), node.version, node.edition) + extension;
     return FileRecord{path, bytes.size(), sha256Hex(bytes)};
   };
-  Made made{&node, {}, otBytes(node.map().tree()), btBytes(node.map().tree())};
+  OctreeFiles files = octreeFiles(node.map().tree());
+  Made made{&node, {}, std::move(files.ot), std::move(files.bt)};
   Contents& contents = made.contents;
   const Eigen::AlignedBox3d& box = node.map().occupiedBox();
   if (!box.isEmpty()) {
     contents.box_center = box.center();
     contents.box_half_extents = (0.5 * box.sizes()).array() + node.map().resolution();
   }
-  contents.extent = node.map().extent();
-  contents.voxels = contents.extent->voxels;
+  contents.extent = files.extent;
+  contents.voxels = files.extent.voxels;
   contents.memory_bytes = node.map().tree().memoryUsage();
   contents.ot = recordOf(".ot", made.ot);
   contents.bt = recordOf(".bt", made.bt);

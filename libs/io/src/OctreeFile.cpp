@@ -145,12 +145,18 @@ std::string fileOf(std::string_view first_line, const octomap::OcTree& tree, con
 
 }  // namespace
 
+OctreeFiles octreeFiles(const octomap::OcTree& tree) {
+  const TreeBytes ot = otNodes(tree);
+  return {fileOf(kOtBegin, tree, ot), fileOf(kBtBegin, tree, btNodes(ot, tree.getOccupancyThresLog())),
+          extentOf(ot, tree.getResolution(), tree.getOccupancyThresLog())};
+}
+
 std::string otBytes(const octomap::OcTree& tree) {
   return fileOf(kOtBegin, tree, otNodes(tree));
 }
 
 std::string btBytes(const octomap::OcTree& tree) {
-  return fileOf(kBtBegin, tree, btNodes(tree));
+  return octreeFiles(tree).bt;
 }
 
 void checkOt(std::string_view bytes, const std::string& name) {

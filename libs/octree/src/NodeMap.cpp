@@ -5,8 +5,10 @@
 #include <stdexcept>
 #include <utility>
 
-#include "Leaves.h"
+#include "OccupiedCorners.h"
+#include "OccupiedLeaves.h"
 #include "VoxelTransfer.h"
+#include "hoctomap/octree/TreeBytes.h"
 
 namespace hoctomap {
 
@@ -38,15 +40,13 @@ Eigen::AlignedBox3d cubeOf(const octomap::OcTree& tree, const octomap::OcTreeKey
 /// Adds the centres of the occupied voxels of leaves that `enter` lets in.
 template <typename Enter>
 void collectOccupied(const octomap::OcTree& tree, PointCloud& voxels, const Enter& enter) {
-  const auto visit = [&](const engine::Node&, const octomap::OcTreeKey& first, unsigned level) {
+  const auto visit = [&](const octomap::OcTreeKey& first, unsigned level) {
     const int edge = 1 << level;
     for (int x = 0; x < edge; ++x)
       for (int y = 0; y < edge; ++y)
         for (int z = 0; z < edge; ++z) voxels.push_back(centerOf(tree, first, {x, y, z}).cast<float>());
   };
-  engine::Leaves(tree, visit, [&](const engine::Node& node, const octomap::OcTreeKey& first, unsigned level) {
-    return tree.isNodeOccupied(node) && enter(first, level);
-  });
+  engine::OccupiedLeaves(tree, visit, enter);
 }
 
 bool isBesideOccupied(const octomap::OcTree& tree, const octomap::OcTreeKey& key) {
@@ -184,35 +184,16 @@ PointCloud NodeMap::occupiedVoxelsIn(const Eigen::AlignedBox3d& box) const {
 const Eigen::AlignedBox3d& NodeMap::occupiedBox() const {
   if (!box_valid_) {
     occupied_box_.setEmpty();
-    const auto visit = [&](const engine::Node&, const octomap::OcTreeKey& first, unsigned level) {
-      occupied_box_.extend(cubeOf(*tree_, first, level));
-    };
-    const auto sticksOut = [&](const engine::Node& node, const octomap::OcTreeKey& first, unsigned level) {
-      return tree_->isNodeOccupied(node) && !occupied_box_.contains(cubeOf(*tree_, first, level));
-    };
-    engine::Leaves(*tree_, visit, sticksOut);
+    if (const auto corners = engine::occupiedCorners(*tree_)) {
+      occupied_box_ = cubeOf(*tree_, corners->first, 0).merged(cubeOf(*tree_, corners->second, 0));
+    }
     box_valid_ = true;
   }
   return occupied_box_;
 }
 
 VoxelExtent NodeMap::extent() const {
-  VoxelExtent extent;
-  const double resolution = tree_->getResolution();
-  const double half_edge = std::ldexp(1.0, static_cast<int>(tree_->getTreeDepth()) - 1);  // of the whole tree
-  const auto visit = [&](const engine::Node& leaf, const octomap::OcTreeKey& first, unsigned level) {
-    const auto edge = std::uint64_t{1} << level;
-    const Eigen::Array3d low = Eigen::Array3d(first[0], first[1], first[2]) - half_edge;
-    const Eigen::AlignedBox3d cube(resolution * low.matrix(),
-                                   resolution * (low + static_cast<double>(edge)).matrix());
-    const bool occupied = tree_->isNodeOccupied(leaf);
-    extent.known.extend(cube);
-    if (occupied) extent.occupied.extend(cube);
-    (occupied ? extent.voxels.occupied : extent.voxels.free) += edge * edge * edge;
-  };
-  engine::Leaves(*tree_, visit,
-                 [](const engine::Node&, const octomap::OcTreeKey&, unsigned) { return true; });
-  return extent;
+  return extentOf(otNodes(*tree_), tree_->getResolution(), tree_->getOccupancyThresLog());
 }
 
 }  // namespace hoctomap

@@ -7,6 +7,8 @@
 #include <string>
 #include <string_view>
 
+#include "hoctomap/octree/VoxelExtent.h"
+
 namespace hoctomap {
 
 /// The stock `.ot` file of a tree (full probabilities), in memory: OctoMap's own file writing does not notice
@@ -15,6 +17,14 @@ namespace hoctomap {
 
 /// The stock `.bt` file (maximum likelihood) of a tree, which stays as it is: OctoMap's writer changes it.
 [[nodiscard]] std::string btBytes(const octomap::OcTree& tree);
+
+/// Both, and what they hold: the tree itself is gone through once.
+struct OctreeFiles {
+  std::string ot;
+  std::string bt;
+  VoxelExtent extent;
+};
+[[nodiscard]] OctreeFiles octreeFiles(const octomap::OcTree& tree);
 
 /// Checks the bytes of an `.ot` file without recursion: strict header, depth at most 16, exactly the
 /// announced number of nodes, nothing after them, finite log-odds. OctoMap's own reader takes truncated files

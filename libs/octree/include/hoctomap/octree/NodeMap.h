@@ -11,21 +11,9 @@
 
 #include "hoctomap/octree/OccupancyModel.h"
 #include "hoctomap/octree/ScanUpdate.h"
+#include "hoctomap/octree/VoxelExtent.h"
 
 namespace hoctomap {
-
-/// Voxels of a map, counted at its resolution: a pruned leaf counts as all the voxels it covers.
-struct VoxelCounts {
-  std::uint64_t occupied = 0;
-  std::uint64_t free = 0;
-};
-
-/// What a map knows and where, in the node's frame: whole voxels, no padding; empty boxes without any.
-struct VoxelExtent {
-  Eigen::AlignedBox3d known;     ///< of all voxels, occupied and free
-  Eigen::AlignedBox3d occupied;  ///< of the occupied ones
-  VoxelCounts voxels;
-};
 
 /// The map m_i of a node (Eq. 2): an OctoMap octree in the node's own frame.
 class NodeMap {

@@ -5,20 +5,20 @@
 
 namespace hoctomap::engine {
 
-/// Calls `visit(leaf, first, level)` for each leaf `level` levels above the voxels, whose first voxel has the
-/// key, in the order of octomap's leaf iterator. Nodes for which `enter(node, first, level)` is false are
-/// left out with all below them: that of what is not occupied, for one, because an inner node is as occupied
-/// as its most occupied child.
+/// Calls `visit(first, level)` for each occupied leaf `level` levels above the voxels, whose first voxel has
+/// the key, in the order of octomap's leaf iterator. Branches without any are not entered: an inner node is
+/// as occupied as its most occupied child. Nor are those for which `enter(first, level)` is false.
 template <typename Visit, typename Enter>
-class Leaves {
+class OccupiedLeaves {
  public:
-  Leaves(const octomap::OcTree& tree, const Visit& visit, const Enter& enter) : visit_(visit), enter_(enter) {
+  OccupiedLeaves(const octomap::OcTree& tree, const Visit& visit, const Enter& enter)
+      : tree_(tree), visit_(visit), enter_(enter) {
     if (const Node* root = tree.getRoot()) walk(*root, kTreeLevels, octomap::OcTreeKey(0, 0, 0));
   }
 
  private:
   void walk(const Node& node, unsigned level, const octomap::OcTreeKey& first) {
-    if (!enter_(node, first, level)) return;
+    if (!tree_.isNodeOccupied(node) || !enter_(first, level)) return;
     bool is_leaf = true;
     if (const auto* const children = NodeAccess::childrenOf(node)) {
       for (unsigned octant = 0; octant < kOctants; ++octant) {
@@ -27,9 +27,10 @@ class Leaves {
         walk(static_cast<const Node&>(*children[octant]), level - 1, childKey(first, level, octant));
       }
     }
-    if (is_leaf) visit_(node, first, level);
+    if (is_leaf) visit_(first, level);
   }
 
+  const octomap::OcTree& tree_;
   const Visit& visit_;
   const Enter& enter_;
 };
