@@ -48,7 +48,8 @@ FileRecord CsvTable::write(const Disk& disk, const std::filesystem::path& direct
     return record();
   }
   // Also without pending rows: what a failed commit has left there goes.
-  if (std::filesystem::file_size(directory / name_) != accepted_bytes_ || !pending_.empty()) {
+  const auto bytes = std::filesystem::file_size(directory / name_);
+  if (bytes != accepted_bytes_ || !pending_.empty()) {
     disk.extend(directory / name_, accepted_bytes_, pending_);
   }
   return record();

@@ -120,7 +120,7 @@ void transferOptional(Io& io, Optional& optional, const Transfer& transfer) {
   bool there = optional.has_value();
   transferFlag(io, there);
   if constexpr (!std::is_const_v<Optional>) {
-    if (there && !optional) optional.emplace();
+    if (there) optional.emplace();
   }
   if (there) transfer(*optional);
 }

@@ -39,6 +39,22 @@ bool grows(const Manifest& manifest, const FileRecord& file) {
          (manifest.scan_table && file.path == manifest.scan_table->path);
 }
 
+/// Whether every place is that of its record. @param manifest with the nodes of the index, parents first
+bool placesAgree(const NodeIndex& index, const Manifest& manifest) {
+  std::map<NodeId, std::size_t> depths;
+  for (const NodeRecord& node : manifest.nodes)
+    depths[node.id] = node.parent ? depths.at(*node.parent) + 1 : 0;
+  for (std::size_t i = 0; i < index.places().size(); ++i) {
+    const NodePlace& place = index.places()[i];
+    const NodeRecord node = index.record(i);
+    if (place.depth != depths.at(node.id) || place.resolution != node.resolution ||
+        place.existence != node.existence ||
+        place.world_T_node.matrix() != toIsometry(node.world_T_node).matrix())
+      return false;
+  }
+  return true;
+}
+
 /// What is wrong with the index of a manifest, which is whole: it must say the same as the text.
 std::optional<std::string> indexProblem(const NodeIndex& index, const std::string& manifest_text) {
   const std::string nodes = manifest_text.substr(std::min(nodesBegin(manifest_text), manifest_text.size()));
@@ -46,7 +62,8 @@ std::optional<std::string> indexProblem(const NodeIndex& index, const std::strin
   Manifest indexed;
   indexed.next_id = NodeId{std::numeric_limits<std::uint32_t>::max()};
   index.addNodes(indexed);
-  if (manifestNodesText(indexed) != nodes) return "says something else than the manifest";
+  if (manifestNodesText(indexed) != nodes || !placesAgree(index, indexed))
+    return "says something else than the manifest";
   return std::nullopt;
 }
 

@@ -240,7 +240,7 @@ void MapDirectory::Session::removeUnnamedFiles() {
       if (isOurTemporary(name)) disk_.remove(directory_ / name);
     }
     if (!committed_->scene) disk_.remove(directory_ / kSceneName);
-    removePrevious(disk_, directory_, &*committed_);
+    removePrevious(disk_, directory_, *committed_);
   } catch (const FileError&) {
     // The map is committed and whole; what could not be removed is so on the next occasion.
   }

@@ -27,11 +27,11 @@ void requireMap(const std::filesystem::path& directory) {
 
 std::optional<std::uint64_t> snapshotAt(const std::filesystem::path& directory, std::uint64_t scans,
                                         std::optional<std::uint64_t> at_scan) {
-  if (!at_scan || scans <= *at_scan + 1) return std::nullopt;
+  if (!at_scan || scans == 0 || *at_scan >= scans - 1) return std::nullopt;
   std::optional<std::uint64_t> newest;
   for (const std::uint64_t scan : snapshotScans(directory)) {
-    // A snapshot beyond the map itself stems from a commit that never was.
-    if (scan <= *at_scan && scan < scans) newest = scan;
+    // Those beyond the map itself, of a commit that never was, are beyond what is asked for, too.
+    if (scan <= *at_scan) newest = scan;
   }
   if (!newest) {
     throw MapError(directory.string() + ": no state after scan " + std::to_string(*at_scan) +

@@ -21,6 +21,15 @@ bool isPaddedNumber(std::string_view text) {
   return text.size() >= kDigits && (text.size() == kDigits || text.front() != '0') && parseCount(text);
 }
 
+/// What stands between a beginning and an end that do not overlap.
+std::optional<std::string_view> between(std::string_view begin, std::string_view text, std::string_view end) {
+  if (!text.starts_with(begin)) return std::nullopt;
+  text.remove_prefix(begin.size());
+  if (!text.ends_with(end)) return std::nullopt;
+  text.remove_suffix(end.size());
+  return text;
+}
+
 std::string editSuffix(std::uint64_t edit) {
   return edit == 0 ? std::string() : "-" + std::to_string(edit);
 }
@@ -51,12 +60,8 @@ std::string seamsFileName(std::uint64_t scans, std::uint64_t edits) {
 }
 
 bool isSeamsFileName(const std::string& name) {
-  constexpr std::string_view kBegin = "seams-";
-  constexpr std::string_view kEnd = ".csv";
-  const std::string_view text = name;
-  if (!text.starts_with(kBegin) || !text.ends_with(kEnd) || text.size() < kBegin.size() + kEnd.size())
-    return false;
-  return isVersion(text.substr(kBegin.size(), text.size() - kBegin.size() - kEnd.size()));
+  const auto version = between("seams-", name, ".csv");
+  return version && isVersion(*version);
 }
 
 std::string indexFileName(const std::string& sha256) {
@@ -64,11 +69,9 @@ std::string indexFileName(const std::string& sha256) {
 }
 
 bool isIndexFileName(const std::string& name) {
-  const std::string_view text = name;
-  return text.size() == kIndexBegin.size() + kIndexDigits + kIndexEnd.size() &&
-         text.starts_with(kIndexBegin) && text.ends_with(kIndexEnd) &&
-         text.substr(kIndexBegin.size(), kIndexDigits).find_first_not_of("0123456789abcdef") ==
-             std::string_view::npos;
+  const auto digits = between(kIndexBegin, name, kIndexEnd);
+  return digits && digits->size() == kIndexDigits &&
+         digits->find_first_not_of("0123456789abcdef") == std::string_view::npos;
 }
 
 std::string snapshotName(std::uint64_t scan) {
@@ -76,12 +79,8 @@ std::string snapshotName(std::uint64_t scan) {
 }
 
 std::optional<std::uint64_t> snapshotScan(const std::string& name) {
-  const std::string_view text = name;
-  if (!text.starts_with(kSnapshotBegin) || !text.ends_with(kSnapshotEnd)) return {};
-  if (text.size() < kSnapshotBegin.size() + kSnapshotEnd.size()) return {};
-  const auto number =
-      text.substr(kSnapshotBegin.size(), text.size() - kSnapshotBegin.size() - kSnapshotEnd.size());
-  return isPaddedNumber(number) ? parseCount(number) : std::nullopt;
+  const auto number = between(kSnapshotBegin, name, kSnapshotEnd);
+  return number && isPaddedNumber(*number) ? parseCount(*number) : std::nullopt;
 }
 
 std::vector<std::uint64_t> snapshotScans(const std::filesystem::path& directory) {

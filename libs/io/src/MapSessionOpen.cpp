@@ -173,7 +173,7 @@ void MapDirectory::Session::removeLeftovers() {
     disk_.remove(directory_ / snapshotName(scan));
     disk_.syncDirectory(directory_);
   }
-  removePrevious(disk_, directory_, &*committed_);
+  removePrevious(disk_, directory_, *committed_);
   removeUnnamedFiles();
 }
 

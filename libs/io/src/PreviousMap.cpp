@@ -66,7 +66,7 @@ Manifest setEventsAside(const Disk& disk, const std::filesystem::path& directory
   if (isAside(manifest.events.path)) return manifest;
   disk.makeDirectory(directory / kPreviousFolder);
   rename(disk, directory, manifest.events, nameAside(manifest.events));
-  if (manifest.events_before_end) manifest.events_before_end->path = manifest.events.path;
+  manifest.events_before_end.value().path = manifest.events.path;
   commitNames(disk, directory, manifest);
   return manifest;
 }
@@ -86,16 +86,15 @@ Manifest bringBack(const Disk& disk, const std::filesystem::path& directory, Man
   return manifest;
 }
 
-void removePrevious(const Disk& disk, const std::filesystem::path& directory, const Manifest* manifest) {
+void removePrevious(const Disk& disk, const std::filesystem::path& directory, const Manifest& manifest) {
   std::set<std::string> named;
-  if (manifest != nullptr) {
-    for (const FileRecord& file : manifest->files()) named.insert(file.path);
-  }
+  for (const FileRecord& file : manifest.files()) named.insert(file.path);
   const std::set<std::string> fixed{kConfigName, kEventsName, kExistenceName, kScansName, kSceneName};
   for (const std::string& name : listDirectory(directory / kPreviousFolder)) {
     const bool ours = fixed.contains(name) || isNodeFileName(name) || isSeamsFileName(name) ||
                       isIndexFileName(name) || isOurTemporary(name);
-    if (ours && !named.contains(kPrefix + name)) disk.remove(directory / kPreviousFolder / name);
+    const bool is_named = named.contains(kPrefix + name);
+    if (ours && !is_named) disk.remove(directory / kPreviousFolder / name);
   }
   std::error_code not_empty;  // somebody else's file in it: stays
   std::filesystem::remove(directory / kPreviousFolder, not_empty);

@@ -25,6 +25,6 @@ void setAside(const Disk& disk, const std::filesystem::path& directory, const Ma
 [[nodiscard]] Manifest bringBack(const Disk& disk, const std::filesystem::path& directory, Manifest manifest);
 
 /// Removes what is ours under `previous/`, except files that `manifest` names.
-void removePrevious(const Disk& disk, const std::filesystem::path& directory, const Manifest* manifest);
+void removePrevious(const Disk& disk, const std::filesystem::path& directory, const Manifest& manifest);
 
 }  // namespace hoctomap
