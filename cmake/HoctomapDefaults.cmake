@@ -39,6 +39,10 @@ endif()
 if(HOCTOMAP_FUZZ)
   target_compile_options(hoctomap_flags INTERFACE -fsanitize=fuzzer-no-link)
 endif()
+if(HOCTOMAP_SANITIZE OR HOCTOMAP_SANITIZE_THREADS)
+  # No limits on address space, of which a sanitizer maps terabytes, and no allocation functions of our own.
+  target_compile_definitions(hoctomap_flags INTERFACE HOCTOMAP_SANITIZED)
+endif()
 if(HOCTOMAP_SANITIZE)
   target_compile_options(hoctomap_flags INTERFACE
     -fsanitize=address,undefined -fno-sanitize-recover=all -fno-omit-frame-pointer

@@ -23,14 +23,14 @@ hoctomap::StreamMessage answerTo(const std::string& file) {
 
 /// No core files, no files at all, and no more memory than the reader of logs has.
 void limitProcess() {
-  constexpr rlim_t kAddressSpace = rlim_t{4} << 30;
   const auto set = [](auto resource, rlim_t value) {
     const rlimit limit{value, value};
     setrlimit(resource, &limit);
   };
   set(RLIMIT_CORE, 0);
   set(RLIMIT_FSIZE, 0);
-#ifndef __SANITIZE_ADDRESS__  // which maps terabytes
+#ifndef HOCTOMAP_SANITIZED  // which maps terabytes
+  constexpr rlim_t kAddressSpace = rlim_t{4} << 30;
   set(RLIMIT_AS, kAddressSpace);
 #endif
 }

@@ -26,7 +26,7 @@ void setAllocationCeiling(std::size_t bytes) {
 
 }  // namespace hoctomap
 
-#ifndef __SANITIZE_ADDRESS__  // which brings its own
+#ifndef HOCTOMAP_SANITIZED  // which brings its own
 
 void* operator new(std::size_t bytes) {
   if (bytes > allocation_ceiling) throw std::bad_alloc();

@@ -128,7 +128,7 @@ void limitProcess(const LogReadOptions& options) {
   }
   setLimit(RLIMIT_CPU, kBaseSeconds + kSecondsPerMegabyte * (bytes >> 20));
   setLimit(RLIMIT_CORE, 0);
-#ifndef __SANITIZE_ADDRESS__  // which maps terabytes
+#ifndef HOCTOMAP_SANITIZED  // which maps terabytes
   setLimit(RLIMIT_AS, options.address_space_bytes);
 #endif
   struct stat out {};

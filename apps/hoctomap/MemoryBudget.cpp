@@ -6,6 +6,7 @@
 #include <unistd.h>
 
 #include <algorithm>
+#include <fstream>
 #include <string>
 
 #include "hoctomap/geometry/Errors.h"
@@ -21,9 +22,21 @@ std::size_t nineTenthsOfTheMachine() {
   return pages / 10 * 9 * static_cast<std::size_t>(sysconf(_SC_PAGESIZE));
 }
 
+/// What the process has asked for; under a sanitizer, whose own memory is terabytes, what it has of that.
+std::size_t memoryHeld() {
+#ifdef HOCTOMAP_SANITIZED
+  std::size_t asked = 0;
+  std::size_t resident = 0;
+  std::ifstream("/proc/self/statm") >> asked >> resident;
+  return resident * static_cast<std::size_t>(sysconf(_SC_PAGESIZE));
+#else
+  return mrpt::system::getMemoryUsage();
+#endif
+}
+
 /// Allocations fail from here on. What is reserved ahead of its use counts, hence more than the budget.
-void limitAllocation(std::size_t bytes) {
-#ifndef __SANITIZE_ADDRESS__  // which reserves terabytes
+void limitAllocation([[maybe_unused]] std::size_t bytes) {
+#ifndef HOCTOMAP_SANITIZED  // which reserves terabytes
   constexpr std::size_t kReserved = std::size_t{2} << 30;
   rlimit limit{};
   getrlimit(RLIMIT_DATA, &limit);
@@ -40,12 +53,12 @@ std::string megabytes(std::size_t bytes) {
 
 MemoryBudget::MemoryBudget(double megabytes)
     : budget_(megabytes < 0.0 ? nineTenthsOfTheMachine() : static_cast<std::size_t>(megabytes * kMegabyte)),
-      before_(mrpt::system::getMemoryUsage()) {
+      before_(memoryHeld()) {
   limitAllocation(budget_);
 }
 
 void MemoryBudget::requireRoom(std::uint64_t scan) {
-  const std::size_t now = mrpt::system::getMemoryUsage();
+  const std::size_t now = memoryHeld();
   largest_growth_ = std::max(largest_growth_, now > before_ ? now - before_ : 0);
   before_ = now;
   if (now + largest_growth_ <= budget_) return;

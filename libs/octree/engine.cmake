@@ -11,4 +11,5 @@ set_source_files_properties(src/FixedRayMarker.cpp src/WideRayBatch.cpp src/Wide
 if(CMAKE_CXX_COMPILER_ID STREQUAL "Clang" AND CMAKE_SYSTEM_PROCESSOR STREQUAL "x86_64")
   set_property(SOURCE src/WideRayBatch.cpp APPEND PROPERTY COMPILE_OPTIONS
     -mavx512f -mavx512dq -mavx512vl -mavx2 -mbmi2 -mpopcnt)
+  set_source_files_properties(src/WideRayBatch.cpp PROPERTIES SKIP_PRECOMPILE_HEADERS ON)  # they are of the plain machine
 endif()

@@ -132,7 +132,7 @@ TEST(Experiments, MeasurementBeyondItsMemoryIsExit6) {
                       "-o", log, "--set", "path.sweep.views=1"})
                 .exit_code,
             0);
-#ifndef __SANITIZE_ADDRESS__
+#ifndef HOCTOMAP_SANITIZED
   EXPECT_EQ(experiments({"measure", "whole", "--variant", "stock", "--log", log, "--resolution", "0.002",
                          "--limit-memory", "400000000"})
                 .exit_code,

@@ -48,7 +48,7 @@ std::uint64_t MemoryPeak::growth() const {
 }
 
 void limitThisProcess(const ProcessLimits& limits) {
-#ifndef __SANITIZE_ADDRESS__  // which takes far more address space than memory
+#ifndef HOCTOMAP_SANITIZED  // which takes far more address space than memory
   setLimit(RLIMIT_AS, limits.memory_bytes);
 #endif
   setLimit(RLIMIT_CPU, limits.cpu_seconds);
