@@ -10,7 +10,10 @@ cmake --preset asan-ubsan -DCMAKE_CXX_COMPILER=clang++ -DHOCTOMAP_PRECOMPILE=ON 
 cmake --build build/asan-ubsan
 # What cannot be run so.
 left_out=(
-  '^(docs|report|workflows|install)/'  # run the programs of the tests of `cli` once more, and interpreters and browsers
+  # OctoMap's own code casts coordinates of 10^12 m, which these scenes have, to int.
+  '^octree/BlockScanUpdate\.(EqualsStockInsertPointCloud|TakesTurnsWithStockOctomap)$'
+  # The programs of `cli` once more, interpreters and browsers.
+  '^(docs|report|workflows|install)/'
 )
 export ASAN_OPTIONS=detect_stack_use_after_return=1:strict_string_checks=1 UBSAN_OPTIONS=print_stacktrace=1
 failed=0

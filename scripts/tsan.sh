@@ -56,10 +56,10 @@ program() {
   TSAN_OPTIONS=detect_deadlocks=0 run explore -q -c configs/scenes/explore_table.ini -o "$work/explored" --threads 3 --set exploration.max_views=3
   run query "$work/demo" --ray 0,0,1.5,1,0,-0.7
   run query "$work/demo" --box 0.4,0,0.8,0.1,0.1,0.2,30 --json
-  run report "$work/demo" -o "$work/demo.html"
+  [ ! -e libs/report/web/node_modules ] || run report "$work/demo" -o "$work/demo.html"
   run diff "$work/demo" "$work/occlusion"
   run merge "$work/demo" "$work/occlusion" -o "$work/merged"
-  run export "$work/demo" "$work/demo.ply"
+  run export "$work/demo" --format ply -o "$work/demo.ply"
   run verify "$work/merged"
 }
 

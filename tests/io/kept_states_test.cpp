@@ -91,6 +91,13 @@ TEST_F(KeptStates, AfterTheLastScanTheMapIsAsItIs) {
   EXPECT_THROW(static_cast<void>(readManifest(map(), 2)), MapError);
 }
 
+TEST_F(KeptStates, AMapWithoutAScanHasOneState) {
+  const auto empty = folder_.path() / "empty";
+  MapDirectory writer(empty, test::mapOptions(MapOpenMode::create));
+  writer.commit({hierarchy_, {}, 0});
+  for (const std::uint64_t scan : {0U, 3U}) EXPECT_EQ(readManifest(empty, scan).scans, 0U);
+}
+
 /// A kept state of a commit that was never finished.
 TEST_F(KeptStates, ThoseBeyondTheMapAreNone) {
   std::filesystem::copy_file(map() / "hierarchy.yaml", map() / "hierarchy-000009.yaml");

@@ -108,14 +108,15 @@ TEST_F(NodeIndexTest, ARecordThatIsImpossible) {
   expectLeftAlone([&](std::string& bytes) { bytes[bytes.rfind(node.bt.sha256)] = 'x'; }, "no SHA-256");
 }
 
-TEST_F(NodeIndexTest, APlaceOfAnotherNode) {
-  // The end of the first place, where its record stands: before the second one, which begins with its id.
-  std::string second(4, '\0');
-  put(second, 0, std::uint32_t{1});
-  const std::size_t record = whole_.find(second, kPose + 12 * 8) - 8;
-  forge([&](std::string& bytes) { put(bytes, record, std::uint64_t{5}); });
-  EXPECT_THROW(static_cast<void>(findNode(map(), kRootId)), MapError);
-  expectNamed("");
+TEST_F(NodeIndexTest, APlaceWithTheRecordOfAnotherNode) {
+  // A place ends with the beginning of its record; all of these nodes have voxels, hence places of one size.
+  constexpr std::size_t kPlace = kPose - kPlaces + 12 * 8 + 2 * (1 + 6 * 8) + 2 * 8 + 8;
+  const std::size_t of_second = kPlaces + 2 * kPlace - 8;
+  for (const std::uint64_t record : {0U, 5U}) {
+    forge([&](std::string& bytes) { put(bytes, of_second, record); });
+    EXPECT_THROW(static_cast<void>(findNode(map(), NodeId{1})), MapError);
+    expectNamed(record == 0 ? "record of another one" : "index-");
+  }
 }
 
 TEST_F(NodeIndexTest, APlaceThatIsNotThatOfItsRecord) {
@@ -127,6 +128,14 @@ TEST_F(NodeIndexTest, APlaceThatIsNotThatOfItsRecord) {
     forge(lie);
     expectNamed("says something else than the manifest");
   }
+}
+
+TEST_F(NodeIndexTest, AManifestWithAWrongHashOfItselfIsNotReadByIts) {
+  std::string text = test::readText(map() / "hierarchy.yaml");
+  text.back() = ' ';
+  test::writeText(map() / "hierarchy.yaml", text);
+  EXPECT_THROW(static_cast<void>(findNode(map(), kRootId)), MapError);
+  EXPECT_THROW(static_cast<void>(readManifest(map())), MapError);
 }
 
 TEST_F(NodeIndexTest, AMapNeedNotHaveOne) {

@@ -80,20 +80,27 @@ class ScanKeys {
     return max_range_ >= 0.0 && (end - origin_).norm() > max_range_;
   }
 
+  /// As coordToKeyChecked, which casts to int what may be beyond that, too.
+  [[nodiscard]] bool isInRange(const point3d& p) const {
+    const auto isKey = [&](double coordinate) {
+      const double cell = std::floor(1.0 / tree_.getResolution() * coordinate);
+      return cell >= -32768.0 && cell < 32768.0;
+    };
+    return isKey(p.x()) && isKey(p.y()) && isKey(p.z());
+  }
+
   void addEndpoint(const point3d& end) {
     if (isTooLong(end)) return;
-    OcTreeKey key;
-    if (!tree_.coordToKeyChecked(end, key)) {
+    if (!isInRange(end)) {
       ++report_.beyond_key_range;
-    } else if (box_.contains(key)) {
+    } else if (const OcTreeKey key = tree_.coordToKey(end); box_.contains(key)) {
       occupied_.insert(key);
     }
   }
 
   void carve(const point3d& end) {
-    OcTreeKey unused;
     // computeRayKeys would complain on stderr.
-    if (!tree_.coordToKeyChecked(origin_, unused) || !tree_.coordToKeyChecked(end, unused)) return;
+    if (!isInRange(origin_) || !isInRange(end)) return;
     if (!tree_.computeRayKeys(origin_, end, ray_)) return;
     for (const OcTreeKey& key : ray_) {
       if (box_.contains(key)) free_.insert(key);
