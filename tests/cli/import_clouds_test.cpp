@@ -174,7 +174,8 @@ TEST(ImportPcd, TheLargestHorizontalStructureIsLevelled) {
   ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
   EXPECT_NE(outcome.out.find("is at z = 0.000 m"), std::string::npos) << outcome.out;
   int on_floor = 0;
-  for (const auto& p : test::scansOf(folder / "a.rawlog").at(0).world_points)
+  const auto scans = test::scansOf(folder / "a.rawlog");
+  for (const auto& p : scans.at(0).world_points)
     on_floor += std::abs(p.z()) < 1e-3F ? 1 : 0;
   EXPECT_GE(on_floor, 5000);
 }
