@@ -51,7 +51,7 @@ if(HOCTOMAP_SANITIZE)
   target_link_options(hoctomap_flags INTERFACE -fsanitize=address,undefined)
 elseif(HOCTOMAP_SANITIZE_THREADS)
   target_compile_options(hoctomap_flags INTERFACE
-    -fsanitize=thread -fno-omit-frame-pointer -Wno-null-dereference -Wno-tsan)
+    -fsanitize=thread -fno-omit-frame-pointer -Wno-null-dereference $<$<CXX_COMPILER_ID:GNU>:-Wno-tsan>)
   target_link_options(hoctomap_flags INTERFACE -fsanitize=thread)
 else()
   target_compile_options(hoctomap_flags INTERFACE
