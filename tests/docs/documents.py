@@ -25,7 +25,7 @@ ELSEWHERE = {
     r'cmake --preset [\w-]+ && cmake --build --preset [\w-]+( --target [\w-]+)?( && ctest --preset [\w-]+)?': 'builds; scripts/test.sh does',
     r'cmake --install build/release --prefix \S+': 'tests/install installs',
     r'PYTHONPATH=build/dev/python /usr/bin/python3 -m pytest tests/python': 'ctest runs it',
-    r'(\./)?scripts/(package_test|tsan|coverage)\.sh( io)?': 'root, or half an hour',
+    r'(\./)?scripts/(package_test|asan|tsan|coverage)\.sh( io)?': 'root, or half an hour',
     r'scripts/workflow_test\.sh': 'minutes; tests/workflows runs it with four logs',
     r'(scripts/slurm_here\.sh )?snakemake .*--profile workflows/profiles/slurm.*': 'scripts/workflow_test.sh does, with a Slurm of its own',
     r'snakemake -s workflows/Snakefile --directory dataset --cores 8': 'docs/tutorials/many_logs.md does',
