@@ -103,7 +103,11 @@ void HierarchyMapper::mergeBridged(const Measurement& z, const std::vector<Label
     if (part.structure != Structure::plane) continue;
     std::vector<NodeId> near;
     for (const NodeId id : hierarchy_.idsNear(worldBounds(part.box))) {
-      if (hierarchy_.node(id).label() == part.label) near.push_back(id);
+      // What stands on a table is none of its parts, though somebody calls it a table.
+      const auto parent = hierarchy_.node(id).parent();
+      if (hierarchy_.node(id).label() == part.label &&
+          (!parent || hierarchy_.node(*parent).label() != part.label))
+        near.push_back(id);
     }
     if (near.size() < 2) continue;
     std::vector<NodeId> bridged = bridgedNodes(hierarchy_, near, part.world_points);
