@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// MapHierarchy::idsNear against a look at every node, through random lives of a hierarchy.
+// MapHierarchy::idsNear and idsSince against a look at every node, through random lives of a hierarchy.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -36,7 +36,7 @@ NodeId anyOf(const MapHierarchy& h, test::Rng& rng) {
 /// One random change.
 void change(MapHierarchy& h, test::Rng& rng) {
   const NodeId id = anyOf(h, rng);
-  switch (rng() % 5) {
+  switch (rng() % 6) {
     case 0:
       add(h, rng);
       break;
@@ -48,6 +48,9 @@ void change(MapHierarchy& h, test::Rng& rng) {
       break;
     case 3:
       fill(h, id, rng);
+      break;
+    case 4:
+      h.node(id).first_scan = rng() % 10;
       break;
     default:
       try {
@@ -68,6 +71,10 @@ void expectAsBruteForce(const MapHierarchy& h, test::Rng& rng) {
     if (!bounds.isEmpty() && bounds.intersects(box)) expected.push_back(id);
   }
   EXPECT_EQ(h.idsNear(box), expected);
+  const std::uint64_t scan = rng() % 10;
+  std::vector<NodeId> later = h.ids();
+  std::erase_if(later, [&](NodeId id) { return h.node(id).first_scan <= scan; });
+  EXPECT_EQ(h.idsSince(scan), later);
 }
 
 TEST(IdsNear, IsWhatALookAtEveryNodeFinds) {

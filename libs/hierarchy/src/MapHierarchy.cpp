@@ -87,6 +87,10 @@ std::vector<NodeId> MapHierarchy::idsNear(const Eigen::AlignedBox3d& world) cons
   return boxes_->near(world, *this);
 }
 
+std::vector<NodeId> MapHierarchy::idsSince(std::uint64_t scan) const {
+  return boxes_->since(scan, *this);
+}
+
 void MapHierarchy::touchSubtree(NodeId id) {
   boxes_->touch(id);
   for (const NodeId child : std::as_const(*this).node(id).children_) touchSubtree(child);

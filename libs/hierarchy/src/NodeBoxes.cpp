@@ -5,6 +5,9 @@
 #include <boost/geometry.hpp>
 #include <boost/geometry/index/rtree.hpp>
 #include <iterator>
+#include <limits>
+#include <optional>
+#include <set>
 #include <unordered_map>
 #include <utility>
 
@@ -34,9 +37,11 @@ struct NodeBoxes::Index {
   struct Node {
     bool touched = false;
     Eigen::AlignedBox3d indexed;  ///< as it is in the tree; empty: it is not
+    std::optional<std::uint64_t> first_scan;
   };
 
   bg::index::rtree<Entry, bg::index::quadratic<16>> tree;
+  std::set<std::pair<std::uint64_t, std::uint32_t>> by_first_scan;
   std::unordered_map<std::uint32_t, Node> nodes;
   std::vector<NodeId> touched;
 
@@ -45,12 +50,20 @@ struct NodeBoxes::Index {
     node.indexed.setEmpty();
   }
 
+  void order(NodeId id, Node& node, std::optional<std::uint64_t> first_scan) {
+    if (node.first_scan == first_scan) return;
+    if (node.first_scan) by_first_scan.erase({*node.first_scan, id.value});
+    if (first_scan) by_first_scan.insert({*first_scan, id.value});
+    node.first_scan = first_scan;
+  }
+
   void refresh(const MapHierarchy& hierarchy) {
     for (const NodeId id : touched) {
       const auto found = nodes.find(id.value);
       if (found == nodes.end()) continue;  // removed meanwhile
       Node& node = found->second;
       node.touched = false;
+      order(id, node, hierarchy.node(id).first_scan);
       const Eigen::AlignedBox3d bounds = worldBounds(hierarchy.box(id));
       if (bounds.min() == node.indexed.min() && bounds.max() == node.indexed.max()) continue;
       takeOut(id, node);
@@ -74,6 +87,7 @@ void NodeBoxes::erase(NodeId id) {
   const auto found = index_->nodes.find(id.value);
   if (found == index_->nodes.end()) return;
   index_->takeOut(id, found->second);
+  index_->order(id, found->second, std::nullopt);
   index_->nodes.erase(found);
 }
 
@@ -84,6 +98,17 @@ std::vector<NodeId> NodeBoxes::near(const Eigen::AlignedBox3d& world, const MapH
   for (auto found = index_->tree.qbegin(bg::index::intersects(toBox(world))); found != index_->tree.qend();
        ++found)
     ids.push_back(NodeId{found->second});
+  std::sort(ids.begin(), ids.end());
+  return ids;
+}
+
+std::vector<NodeId> NodeBoxes::since(std::uint64_t scan, const MapHierarchy& hierarchy) {
+  index_->refresh(hierarchy);
+  std::vector<NodeId> ids;
+  constexpr auto kLast = std::numeric_limits<std::uint32_t>::max();
+  const auto& ordered = index_->by_first_scan;
+  for (auto it = ordered.upper_bound({scan, kLast}); it != ordered.end(); ++it)
+    ids.push_back(NodeId{it->second});
   std::sort(ids.begin(), ids.end());
   return ids;
 }

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <Eigen/Geometry>
+#include <cstdint>
 #include <memory>
 #include <vector>
 
@@ -11,8 +12,9 @@ namespace hoctomap {
 
 class MapHierarchy;
 
-/// Where the nodes of a hierarchy are: an R-tree over their boxes in the world, kept up to date lazily. Only
-/// nodes that were touched since the last question are looked at again.
+/// Where the nodes of a hierarchy are, and since when: an R-tree over their boxes in the world and an order
+/// by first scans, kept up to date lazily. Only nodes that were touched since the last question are looked at
+/// again.
 class NodeBoxes {
  public:
   NodeBoxes();
@@ -26,6 +28,8 @@ class NodeBoxes {
 
   /// Nodes of `hierarchy` whose box in the world meets `world`, and some that miss it by a hair; ascending.
   [[nodiscard]] std::vector<NodeId> near(const Eigen::AlignedBox3d& world, const MapHierarchy& hierarchy);
+  /// Nodes whose first scan is later than `scan`, ascending.
+  [[nodiscard]] std::vector<NodeId> since(std::uint64_t scan, const MapHierarchy& hierarchy);
 
  private:
   struct Index;

@@ -90,10 +90,10 @@ bool RelationSet::mayHold(const Label& above, const Label& below) const {
 std::vector<NodeId> RelationSet::candidateAncestors(const MapHierarchy& hierarchy,
                                                     const NodeView& below) const {  // Eq. (6)
   std::vector<NodeId> candidates;
-  for (const NodeId id : hierarchy.ids()) {
-    if (hierarchy.node(id).confirmation.waits || !mayHold(hierarchy.node(id).label(), below.label)) continue;
-    if (holds(hierarchy.view(id), below)) candidates.push_back(id);
-  }
+  hierarchy.forEachNode([&](const MapNode& node) {
+    if (node.confirmation.waits || !mayHold(node.label(), below.label)) return;
+    if (holds(hierarchy.view(node.id()), below)) candidates.push_back(node.id());
+  });
   return candidates;
 }
 

@@ -47,9 +47,9 @@ std::optional<LateMatch> LateMatches::find(const MapHierarchy& hierarchy, NodeId
     return r;
   };
   std::optional<LateMatch> match;
-  for (const NodeId id : hierarchy.ids()) {
+  for (const NodeId id : hierarchy.idsSince(old.last_scan)) {
     const MapNode& node = hierarchy.node(id);
-    if (id == known || node.label() != old.label() || node.first_scan <= old.last_scan) continue;
+    if (id == known || node.label() != old.label()) continue;
     if (node.first_scan >= scan || isContradicted(id)) continue;
     const Registration r = compare(id);
     if (r.verdict != Match::same) continue;

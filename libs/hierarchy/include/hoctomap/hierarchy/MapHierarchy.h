@@ -3,6 +3,7 @@
 
 #include <map>
 #include <memory>
+#include <utility>
 #include <vector>
 
 #include "hoctomap/hierarchy/MapNode.h"
@@ -52,10 +53,17 @@ class MapHierarchy {
   [[nodiscard]] std::vector<NodeId> preorder() const;
   /// All ids, ascending.
   [[nodiscard]] std::vector<NodeId> ids() const;
+  /// Calls `visit(node)` for all nodes, ids ascending.
+  template <typename Visit>
+  void forEachNode(const Visit& visit) const {
+    for (const auto& [unused, node] : nodes_) visit(std::as_const(*node));
+  }
   /// Ids of the nodes whose box in the world meets `world` (touching, up to a hair), ascending. The cost
   /// grows with their number and with that of the nodes changed since the last call, not with that of all
   /// nodes. Not for several threads at once.
   [[nodiscard]] std::vector<NodeId> idsNear(const Eigen::AlignedBox3d& world) const;
+  /// Ids of the nodes whose first scan is later than `scan`, ascending; at the same cost.
+  [[nodiscard]] std::vector<NodeId> idsSince(std::uint64_t scan) const;
   [[nodiscard]] NodeId nextId() const { return next_id_; }
 
   /// Adds a node under `parent` so that its frame in the world is `world_T_node`: t_i = t_p^global^-1 o it.
