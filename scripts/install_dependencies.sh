@@ -2,6 +2,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
 # Installs the Debian 12 packages that are missing. Uses sudo only when not root.
 #   --workflows   also Snakemake and Slurm, for workflows/ and its tests; without them those tests are skipped
+#   --developer   also clang, its tools, and gcovr: sanitizers, fuzzers, coverage, format
 set -euo pipefail
 
 packages=(
@@ -34,7 +35,13 @@ packages=(
 # The page of reports is bundled from packages of npm, and tests use some; it brings many packages where it is not there in some other way.
 command -v npm >/dev/null || packages+=(nodejs npm)
 
-[ "${1:-}" != --workflows ] || packages+=(snakemake slurm-wlm munge)
+for option in "$@"; do
+  case $option in
+    --workflows) packages+=(snakemake slurm-wlm munge) ;;
+    --developer) packages+=(clang clang-format clang-tidy gcovr) ;;
+    *) echo "install_dependencies.sh: unknown option $option" >&2; exit 2 ;;
+  esac
+done
 
 missing=()
 for package in "${packages[@]}"; do
