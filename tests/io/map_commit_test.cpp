@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 #include <sys/resource.h>
 #include <sys/wait.h>
+#include <tbb/global_control.h>
 #include <unistd.h>
 
 #include <algorithm>
@@ -40,6 +41,8 @@ class MapCommit : public ::testing::Test {
   }
 
   TemporaryFolder folder_;
+  /// A child of a fork has none of the threads that oneTBB had by then, and may wait for them for ever.
+  tbb::global_control no_workers_{tbb::global_control::max_allowed_parallelism, 1};
 };
 
 TEST_F(MapCommit, SameRunSameBytes) {
