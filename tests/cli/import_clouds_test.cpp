@@ -175,8 +175,7 @@ TEST(ImportPcd, TheLargestHorizontalStructureIsLevelled) {
   EXPECT_NE(outcome.out.find("is at z = 0.000 m"), std::string::npos) << outcome.out;
   int on_floor = 0;
   const auto scans = test::scansOf(folder / "a.rawlog");
-  for (const auto& p : scans.at(0).world_points)
-    on_floor += std::abs(p.z()) < 1e-3F ? 1 : 0;
+  for (const auto& p : scans.at(0).world_points) on_floor += std::abs(p.z()) < 1e-3F ? 1 : 0;
   EXPECT_GE(on_floor, 5000);
 }
 

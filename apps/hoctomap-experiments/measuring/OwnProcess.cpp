@@ -18,10 +18,6 @@ namespace {
 
 constexpr int kLimitExit = 6;  // of a LimitError, and of a failed allocation
 
-std::filesystem::path thisProgram() {
-  return std::filesystem::read_symlink("/proc/self/exe");
-}
-
 /// The same program with the allocator of the C library, beside it.
 std::filesystem::path withPlainAllocator(std::filesystem::path program) {
   return program.replace_filename("hoctomap-experiments-libc");
@@ -61,6 +57,10 @@ double seconds(const timeval& time) {
 }
 
 }  // namespace
+
+std::filesystem::path thisProgram() {
+  return std::filesystem::read_symlink("/proc/self/exe");
+}
 
 std::optional<Figures> measureApart(const Task& task) {
   const auto program = thisProgram();

@@ -19,6 +19,9 @@ namespace hoctomap {
 [[nodiscard]] Figures runApart(const std::filesystem::path& program,
                                const std::vector<std::string>& arguments);
 
+/// The path of this program.
+[[nodiscard]] std::filesystem::path thisProgram();
+
 /// The program `hoctomap` beside this one, or in the build tree that this program lies in.
 /// @throws FileError if there is none
 [[nodiscard]] std::filesystem::path findHoctomap();

@@ -54,6 +54,13 @@ std::size_t MapHierarchy::depth(NodeId id) const {
   return depth;
 }
 
+bool MapHierarchy::isInSubtree(NodeId id, NodeId subtree_root) const {
+  for (const MapNode* n = &node(id);; n = &node(*n->parent_)) {
+    if (n->id() == subtree_root) return true;
+    if (!n->parent_) return false;
+  }
+}
+
 Obb MapHierarchy::box(NodeId id) const {
   const NodeMap& map = node(id).map();
   return Obb{toIsometry(world_T_node(id)), map.occupiedBox()}.padded(map.resolution());
@@ -148,10 +155,7 @@ void MapHierarchy::relabel(NodeId id, Label label) {
 
 void MapHierarchy::reparent(NodeId id, NodeId parent) {
   if (id == kRootId) throw std::invalid_argument("the root has no parent");
-  for (const MapNode* n = &node(parent);; n = &node(*n->parent_)) {
-    if (n->id() == id) throw std::invalid_argument("a node cannot hang below itself");
-    if (!n->parent_) break;
-  }
+  if (isInSubtree(parent, id)) throw std::invalid_argument("a node cannot hang below itself");
   MapNode& n = node(id);
   const Pose world_T_n = world_T_node(id);
   eraseChild(node(*n.parent_).children_, id);

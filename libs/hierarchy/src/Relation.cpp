@@ -41,13 +41,6 @@ class LabelRelation : public Relation {
   Holds holds_;
 };
 
-bool isInSubtree(const MapHierarchy& hierarchy, NodeId id, NodeId subtree_root) {
-  for (const MapNode* n = &hierarchy.node(id);; n = &hierarchy.node(*n->parent())) {
-    if (n->id() == subtree_root) return true;
-    if (!n->parent()) return false;
-  }
-}
-
 }  // namespace
 
 std::unique_ptr<Relation> makeRelation(std::string name,
@@ -102,7 +95,7 @@ NodeId RelationSet::deepestAncestor(const MapHierarchy& hierarchy, const NodeVie
   NodeId best = kRootId;
   bool found = false;
   for (const NodeId id : candidateAncestors(hierarchy, below)) {
-    if (except != nullptr && isInSubtree(hierarchy, id, *except)) continue;
+    if (except != nullptr && hierarchy.isInSubtree(id, *except)) continue;
     if (!found || isBetter(hierarchy, id, best, below)) best = id;
     found = true;
   }
@@ -123,7 +116,7 @@ bool RelationSet::adopts(const MapHierarchy& hierarchy, NodeId above, NodeId bel
   if (hierarchy.node(above).confirmation.waits) return false;
   if (!mayHold(hierarchy.node(above).label(), node.label())) return false;
   const NodeView view = hierarchy.view(below);
-  if (!holds(hierarchy.view(above), view) || isInSubtree(hierarchy, above, below)) return false;
+  if (!holds(hierarchy.view(above), view) || hierarchy.isInSubtree(above, below)) return false;
   return !holds(hierarchy.view(*node.parent()), view) || isBetter(hierarchy, above, *node.parent(), view);
 }
 

@@ -156,6 +156,10 @@ void HierarchyMapper::mergeInto(NodeId whole, NodeId piece, std::uint64_t scan, 
   merged.version = scan;
   merged.first_scan = std::min(merged.first_scan, hierarchy_.node(piece).first_scan);
   merged.last_scan = std::max(merged.last_scan, hierarchy_.node(piece).last_scan);
+  const std::vector<NodeId> children = hierarchy_.node(piece).children();
+  for (const NodeId child : children) {  // one of them may hold the whole: it goes to the piece's parent
+    if (!hierarchy_.isInSubtree(whole, child)) hierarchy_.reparent(child, whole);
+  }
   note(report, NodeEventKind::merged, piece, "into node " + std::to_string(whole.value));
   takeOut(piece, scan);
 }

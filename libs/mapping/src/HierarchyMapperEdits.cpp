@@ -19,13 +19,6 @@ UpdateReport reportOf(const HierarchyMapper::Edit& edit) {
   return report;
 }
 
-bool isBelow(const MapHierarchy& map, NodeId id, NodeId above) {
-  for (auto parent = map.node(id).parent(); parent; parent = map.node(*parent).parent()) {
-    if (*parent == above) return true;
-  }
-  return false;
-}
-
 }  // namespace
 
 void HierarchyMapper::confirmEntered() {
@@ -73,7 +66,7 @@ UpdateReport HierarchyMapper::merge(NodeId whole, NodeId piece, const Edit& edit
   requireEditable(piece);
   if (whole != kRootId) requireEditable(whole);
   if (whole == piece) throw ConfigError(nodeName(whole) + " cannot be merged with itself");
-  if (isBelow(hierarchy_, whole, piece)) {
+  if (hierarchy_.isInSubtree(whole, piece)) {
     throw ConfigError(nodeName(whole) + " is below " + nodeName(piece) +
                       ", which cannot go into it; merge the other way round");
   }
@@ -82,8 +75,6 @@ UpdateReport HierarchyMapper::merge(NodeId whole, NodeId piece, const Edit& edit
                       ", its voxels cannot go into finer ones; merge the other way round");
   }
   UpdateReport report = reportOf(edit);
-  const std::vector<NodeId> children = hierarchy_.node(piece).children();
-  for (const NodeId child : children) hierarchy_.reparent(child, whole);
   mergeInto(whole, piece, edit.scan, report);
   hierarchy_.node(whole).edition = edit.number;
   if (config_.seam_votes) assumeWhole(whole);

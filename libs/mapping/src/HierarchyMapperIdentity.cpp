@@ -113,8 +113,6 @@ void HierarchyMapper::mergeBridged(const Measurement& z, const std::vector<Label
     std::vector<NodeId> bridged = bridgedNodes(hierarchy_, near, part.world_points);
     keepLargestFirst(bridged);
     for (std::size_t k = 1; k < bridged.size(); ++k) {
-      const std::vector<NodeId> children = hierarchy_.node(bridged[k]).children();
-      for (const NodeId child : children) hierarchy_.reparent(child, bridged[0]);
       mergeInto(bridged[0], bridged[k], z.scan, report);
     }
   }

@@ -45,6 +45,8 @@ class MapHierarchy {
   [[nodiscard]] Pose world_T_node(NodeId id) const;
   /// Distance to the root, which has depth 0.
   [[nodiscard]] std::size_t depth(NodeId id) const;
+  /// Whether a node is in the subtree of another, or is that node.
+  [[nodiscard]] bool isInSubtree(NodeId id, NodeId subtree_root) const;
   /// The node's oriented box in the world: occupied voxels padded by one voxel. Empty without any.
   [[nodiscard]] Obb box(NodeId id) const;
   /// What relations are asked about.
