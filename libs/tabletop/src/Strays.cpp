@@ -116,7 +116,8 @@ void attachStrays(const Measurement& z, std::vector<TableSurface>& tables, std::
     std::size_t cell;
   };
   std::vector<Flat> flat_points;
-  std::map<std::pair<std::size_t, std::size_t>, int> more_lies_than_rises;  // by table and cell
+  // By table and cell; > 0 where it is no wall's, whose points are as dense above the flat band as in it.
+  std::map<std::pair<std::size_t, std::size_t>, int> flatness;
   ScanBlocks(z).visit(isOverTable, [&](std::uint32_t i) {
     if (taken[i]) return;
     const Eigen::Vector3d p = z.world_points[i].cast<double>();
@@ -130,18 +131,18 @@ void attachStrays(const Measurement& z, std::vector<TableSurface>& tables, std::
       if (height < -flat) continue;
       if (std::abs(height) <= flat) {
         flat_points.push_back({i, t, cell});
-        ++more_lies_than_rises[{t, cell}];
+        ++flatness[{t, cell}];
       } else if (const auto object = object_points.nearest(z.world_points[i])) {
         objects[*object].push_back(i);
       } else {
-        --more_lies_than_rises[{t, cell}];
+        if (height <= 3 * flat) flatness[{t, cell}] -= 2;  // a band as thick, above: half as many are enough
         continue;
       }
       break;
     }
   });
   for (const Flat& flat : flat_points) {  // what goes on upwards is a wall at the table's edge
-    if (more_lies_than_rises.at({flat.table, flat.cell}) > 0) tables[flat.table].points.push_back(flat.point);
+    if (flatness.at({flat.table, flat.cell}) > 0) tables[flat.table].points.push_back(flat.point);
   }
   for (std::size_t k = 0; k < objects.size(); ++k) mergeAdded(objects[k], object_sizes[k]);
   for (std::size_t k = 0; k < tables.size(); ++k) mergeAdded(tables[k].points, table_sizes[k]);
