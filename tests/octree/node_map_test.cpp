@@ -21,6 +21,15 @@ NodeMap mapOf(const PointCloud& hits, double resolution) {
   return map;
 }
 
+Eigen::AlignedBox3d boxOf(const PointCloud& voxels, double resolution) {
+  Eigen::AlignedBox3d box;
+  const Eigen::Vector3d half = Eigen::Vector3d::Constant(resolution / 2);
+  for (const auto& p : voxels) {
+    box.extend(Eigen::AlignedBox3d(p.cast<double>() - half, p.cast<double>() + half));
+  }
+  return box;
+}
+
 TEST(NodeMap, RefusesResolutionsThatAreNone) {
   for (const double bad :
        {0.0, -0.1, std::numeric_limits<double>::quiet_NaN(), std::numeric_limits<double>::infinity()}) {
@@ -51,13 +60,8 @@ TEST(NodeMap, BoxesAndRegionsAreThoseOfAllVoxels) {
     beams.origin = test::uniformVector(rng, -2.0, 2.0).cast<float>();
     beams.hits = test::boxSurface(rng, test::randomBox(rng, 1.0), 1500);
     map.update(*makeReferenceScanUpdate(), beams);
-    Eigen::AlignedBox3d box;
-    const Eigen::Vector3d half = Eigen::Vector3d::Constant(0.01);
     const PointCloud all = map.occupiedVoxels();
-    for (const auto& p : all) {
-      box.extend(Eigen::AlignedBox3d(p.cast<double>() - half, p.cast<double>() + half));
-    }
-    EXPECT_TRUE(map.occupiedBox().isApprox(box, 1e-6)) << scan;
+    EXPECT_TRUE(map.occupiedBox().isApprox(boxOf(all, 0.02), 1e-6)) << scan;
     const Eigen::AlignedBox3d region = test::randomBox(rng, 1.0).box;
     const PointCloud inside = map.occupiedVoxelsIn(region);
     const auto isInside = [&](const Eigen::Vector3f& p) { return region.contains(p.cast<double>()); };
@@ -67,6 +71,66 @@ TEST(NodeMap, BoxesAndRegionsAreThoseOfAllVoxels) {
     for (const auto& p : all) found += found < inside.size() && p == inside[found];
     EXPECT_EQ(found, inside.size());
   }
+}
+
+TEST(NodeMap, ItsBoxFollowsWhateverChanges) {
+  const double resolution = 0.05;
+  test::Rng rng(17);
+  NodeMap map(resolution, {});
+  NodeMap other(resolution, {});
+  const auto scan = [&](NodeMap& to) {
+    Beams beams;
+    beams.origin = test::uniformVector(rng, -2.0, 2.0).cast<float>();
+    const PointCloud hits = test::boxSurface(rng, test::randomBox(rng, 1.0), 60);
+    const PointCloud ends = test::boxSurface(rng, test::randomBox(rng, 1.5), 3);
+    const PointCloud passing = test::boxSurface(rng, test::randomBox(rng, 2.5), 3000);
+    beams.hits = hits;
+    beams.endpoints = ends;
+    beams.passing = passing;
+    if (test::uniform(rng, 0.0, 1.0) < 0.3) beams.max_range = 1.5;
+    to.update(*makeReferenceScanUpdate(), beams);
+  };
+  const auto someVoxels = [&](const NodeMap& of) {
+    PointCloud some;
+    for (const auto& p : of.occupiedVoxels()) {
+      if (p[0] > 0.8F) some.push_back(p);
+    }
+    return some;
+  };
+  int shrunk = 0;
+  for (int step = 0; step < 200; ++step) {
+    const Eigen::AlignedBox3d before = map.occupiedBox();
+    switch (std::uniform_int_distribution(0, 7)(rng)) {
+      case 0:
+        map.cede(someVoxels(map));
+        break;
+      case 1:
+        scan(other);
+        break;
+      case 2:
+        other.give(map, Eigen::Isometry3d::Identity(), [](const auto& p) { return p[1] > 0.7F; });
+        break;
+      case 3:
+        map.give(other, Eigen::Isometry3d::Identity(), [](const auto& p) { return p[1] < -0.7F; });
+        break;
+      case 4:
+        map.add(other, Eigen::Isometry3d::Identity());
+        break;
+      case 5:
+        scan(map);
+        [[fallthrough]];  // the box is asked for after two
+      default:
+        scan(map);
+    }
+    shrunk += map.occupiedBox().isEmpty() || !map.occupiedBox().contains(before);
+    for (const NodeMap* m : {&map, &other}) {
+      const Eigen::AlignedBox3d all = boxOf(m->occupiedVoxels(), resolution);
+      ASSERT_EQ(m->occupiedBox().isEmpty(), all.isEmpty()) << step;
+      if (all.isEmpty()) continue;
+      ASSERT_TRUE(m->occupiedBox().isApprox(all, 1e-6)) << step;
+    }
+  }
+  EXPECT_GT(shrunk, 10);
 }
 
 TEST(NodeMap, CountsAndListsVoxelsAtItsResolution) {

@@ -39,7 +39,7 @@ NodeFiles::Made NodeFiles::make(const MapNode& node) {
   }
   contents.extent = files.extent;
   contents.voxels = files.extent.voxels;
-  contents.memory_bytes = node.map().tree().memoryUsage();
+  contents.memory_bytes = files.memory_bytes;
   contents.ot = recordOf(".ot", made.ot);
   contents.bt = recordOf(".bt", made.bt);
   return made;

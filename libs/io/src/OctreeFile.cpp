@@ -143,12 +143,19 @@ std::string fileOf(std::string_view first_line, const octomap::OcTree& tree, con
   return std::move(header).str() + nodes.bytes;
 }
 
+/// As `memoryUsage()`, which goes through the tree to count its leaves.
+std::uint64_t memoryOf(const octomap::OcTree& tree, const TreeBytes& ot) {
+  using Tree = octomap::OcTreeBaseImpl<octomap::OcTreeNode, octomap::AbstractOccupancyOcTree>;
+  constexpr std::uint64_t kChildren = sizeof(octomap::OcTreeNode* [8]);
+  return sizeof(Tree) + tree.memoryUsageNode() * ot.nodes + kChildren * (ot.nodes - ot.leaves);
+}
+
 }  // namespace
 
 OctreeFiles octreeFiles(const octomap::OcTree& tree) {
   const TreeBytes ot = otNodes(tree);
   return {fileOf(kOtBegin, tree, ot), fileOf(kBtBegin, tree, btNodes(ot, tree.getOccupancyThresLog())),
-          extentOf(ot, tree.getResolution(), tree.getOccupancyThresLog())};
+          extentOf(ot, tree.getResolution(), tree.getOccupancyThresLog()), memoryOf(tree, ot)};
 }
 
 std::string otBytes(const octomap::OcTree& tree) {

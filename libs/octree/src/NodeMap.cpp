@@ -2,6 +2,7 @@
 #include "hoctomap/octree/NodeMap.h"
 
 #include <cmath>
+#include <limits>
 #include <stdexcept>
 #include <utility>
 
@@ -77,23 +78,50 @@ octomap::OcTree resampled(const octomap::OcTree& source, const Eigen::Isometry3d
   return there;
 }
 
+/// Keys that are occupied after a scan and were not before: of ends of beams. What is no number has none.
+engine::KeyBox keysOfEnds(const octomap::OcTree& tree, const Beams& beams) {
+  Eigen::Array3f low = Eigen::Array3f::Constant(std::numeric_limits<float>::infinity());
+  Eigen::Array3f high = -low;
+  for (const auto ends : {beams.hits, beams.endpoints}) {
+    for (const auto& p : ends) {
+      for (Eigen::Index i = 0; i < 3; ++i) {
+        if (p[i] < low[i]) low[i] = p[i];
+        if (p[i] > high[i]) high[i] = p[i];
+      }
+    }
+  }
+  if ((low > high).any()) return engine::kNoKeys;
+  return engine::VoxelGrid(tree.getResolution())
+      .keyBox(Eigen::AlignedBox3d(low.matrix().cast<double>(), high.matrix().cast<double>()));
+}
+
 }  // namespace
+
+// Here, where OccupiedCorners is known.
+NodeMap::NodeMap(NodeMap&&) noexcept = default;
+NodeMap& NodeMap::operator=(NodeMap&&) noexcept = default;
+NodeMap::~NodeMap() = default;
+
+void NodeMap::changed(const engine::KeyBox& occupied) {
+  voxels_valid_ = false;
+  corners_->changed(occupied);
+}
 
 NodeMap::NodeMap(double resolution, const OccupancyModel& model) : NodeMap(emptyTree(resolution), model) {}
 
 NodeMap::NodeMap(std::unique_ptr<octomap::OcTree> tree, const OccupancyModel& model)
-    : tree_(std::move(tree)), model_(model) {
+    : tree_(std::move(tree)), model_(model), corners_(std::make_unique<engine::OccupiedCorners>()) {
   if (!tree_) throw std::invalid_argument("a node map needs a tree");
   model_.applyTo(*tree_);
 }
 
 ScanUpdateReport NodeMap::update(const ScanUpdate& engine, const Beams& beams) {
-  changed();
+  changed(keysOfEnds(*tree_, beams));
   return engine.apply(*tree_, beams);
 }
 
 void NodeMap::absorb(const NodeMap& other, const Eigen::Isometry3d& this_T_other) {
-  changed();
+  changed(engine::kAllKeys);
   octomap::OcTree source(*other.tree_);
   source.expand();
   for (const bool occupied : {true, false}) {
@@ -108,7 +136,7 @@ void NodeMap::absorb(const NodeMap& other, const Eigen::Isometry3d& this_T_other
 }
 
 void NodeMap::add(const NodeMap& other, const Eigen::Isometry3d& this_T_other) {
-  changed();
+  changed(engine::kAllKeys);
   octomap::OcTree source(*other.tree_);
   source.expand();
   const bool same_grid = this_T_other.matrix().isIdentity(0.0) && source.getResolution() == resolution();
@@ -122,8 +150,8 @@ void NodeMap::add(const NodeMap& other, const Eigen::Isometry3d& this_T_other) {
 
 void NodeMap::give(NodeMap& other, const Eigen::Isometry3d& other_T_this,
                    const std::function<bool(const Eigen::Vector3f&)>& which) {
-  changed();
-  other.changed();
+  changed(engine::kNoKeys);
+  other.changed(engine::kAllKeys);
   const auto center = [this](const octomap::OcTreeKey& key) { return centerOf(*tree_, key); };
   engine::takeVoxels(
       *tree_, [&](const octomap::OcTreeKey& key) { return which(center(key).cast<float>()); },
@@ -151,7 +179,7 @@ void NodeMap::cede(const PointCloud& points) {
   for (const auto& key : near) {
     const octomap::OcTreeNode* voxel = tree_->search(key);
     if (voxel == nullptr || !tree_->isNodeOccupied(voxel)) continue;
-    changed();
+    changed(engine::kNoKeys);
     if (voxel->getLogOdds() - tree_->getProbHitLog() < tree_->getOccupancyThresLog()) {
       lost.insert(key);
     } else {
@@ -181,15 +209,10 @@ PointCloud NodeMap::occupiedVoxelsIn(const Eigen::AlignedBox3d& box) const {
   return voxels;
 }
 
-const Eigen::AlignedBox3d& NodeMap::occupiedBox() const {
-  if (!box_valid_) {
-    occupied_box_.setEmpty();
-    if (const auto corners = engine::occupiedCorners(*tree_)) {
-      occupied_box_ = cubeOf(*tree_, corners->first, 0).merged(cubeOf(*tree_, corners->second, 0));
-    }
-    box_valid_ = true;
-  }
-  return occupied_box_;
+Eigen::AlignedBox3d NodeMap::occupiedBox() const {
+  const auto& corners = corners_->of(*tree_);
+  if (!corners) return {};
+  return cubeOf(*tree_, corners->first, 0).merged(cubeOf(*tree_, corners->second, 0));
 }
 
 VoxelExtent NodeMap::extent() const {

@@ -1,30 +1,42 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "OccupiedCorners.h"
 
+#include <algorithm>
+
 #include "TreeAccess.h"
 
 namespace hoctomap::engine {
 namespace {
 
-/// The outermost occupied voxel along one axis.
+/// Looks for a voxel that is farther out along one axis. Enters only what may hold one, outer branches first.
 class Outermost {
  public:
   /// @param upwards  towards greater keys
   Outermost(const octomap::OcTree& tree, unsigned axis, bool upwards)
-      : tree_(tree), axis_(axis), upwards_(upwards) {
-    walk(*tree.getRoot(), kTreeLevels, 0);
-  }
-  [[nodiscard]] std::optional<octomap::key_type> key() const {
-    if (!found_) return std::nullopt;
-    return static_cast<octomap::key_type>(*found_);
+      : tree_(tree), axis_(axis), upwards_(upwards) {}
+
+  /// What is farther in does not count.
+  void startFrom(const octomap::OcTreeKey& occupied) { found_ = occupied; }
+
+  std::optional<octomap::OcTreeKey> searchIn(const KeyBox& box) {
+    if (!box.empty() && tree_.getRoot() != nullptr) {
+      box_ = box;
+      walk(*tree_.getRoot(), kTreeLevels, octomap::OcTreeKey(0, 0, 0));
+    }
+    return found_;
   }
 
  private:
-  /// @param first  least key of the node's voxels along the axis
-  void walk(const Node& node, unsigned level, unsigned first) {
-    const unsigned outermost = upwards_ ? first + (1U << level) - 1 : first;
-    if (!tree_.isNodeOccupied(node) || (found_ && (upwards_ ? outermost <= *found_ : outermost >= *found_)))
+  /// @param first  the least keys of the node's voxels
+  void walk(const Node& node, unsigned level, const octomap::OcTreeKey& first) {
+    const unsigned last = (1U << level) - 1;
+    const unsigned outermost = upwards_ ? first[axis_] + last : first[axis_];
+    if (!tree_.isNodeOccupied(node) ||
+        (found_ && (upwards_ ? outermost <= (*found_)[axis_] : outermost >= (*found_)[axis_])))
       return;
+    for (unsigned i = 0; i < 3; ++i) {
+      if (static_cast<int>(first[i] + last) < box_.min[i] || static_cast<int>(first[i]) > box_.max[i]) return;
+    }
     bool is_leaf = true;
     if (const auto* const children = NodeAccess::childrenOf(node)) {
       for (const bool far : {true, false}) {
@@ -32,32 +44,54 @@ class Outermost {
           const unsigned upper = octant >> axis_ & 1U;
           if (children[octant] == nullptr || (upper == 1U) != (far == upwards_)) continue;
           is_leaf = false;
-          walk(static_cast<const Node&>(*children[octant]), level - 1, first + (upper << (level - 1)));
+          walk(static_cast<const Node&>(*children[octant]), level - 1, childKey(first, level, octant));
         }
       }
     }
-    if (is_leaf) found_ = outermost;
+    if (!is_leaf) return;
+    found_ = first;
+    (*found_)[axis_] = static_cast<octomap::key_type>(outermost);
   }
 
   const octomap::OcTree& tree_;
   unsigned axis_;
   bool upwards_;
-  std::optional<unsigned> found_;
+  KeyBox box_;
+  std::optional<octomap::OcTreeKey> found_;
 };
+
+bool isOccupied(const octomap::OcTree& tree, const octomap::OcTreeKey& voxel) {
+  const Node* const node = tree.search(voxel);
+  return node != nullptr && tree.isNodeOccupied(node);
+}
 
 }  // namespace
 
-std::optional<std::pair<octomap::OcTreeKey, octomap::OcTreeKey>> occupiedCorners(
-    const octomap::OcTree& tree) {
-  if (tree.getRoot() == nullptr) return std::nullopt;
-  std::pair<octomap::OcTreeKey, octomap::OcTreeKey> corners;
-  for (unsigned axis = 0; axis < 3; ++axis) {
-    const auto low = Outermost(tree, axis, false).key();
-    if (!low) return std::nullopt;
-    corners.first[axis] = *low;
-    corners.second[axis] = *Outermost(tree, axis, true).key();
+void OccupiedCorners::changed(const KeyBox& occupied) {
+  valid_ = false;
+  if (occupied.empty()) return;
+  changed_ = changed_.empty() ? occupied : changed_.merged(occupied);
+}
+
+const std::optional<OccupiedCorners::Corners>& OccupiedCorners::of(const octomap::OcTree& tree) {
+  if (valid_) return corners_;
+  const bool had_any = corners_.has_value();
+  corners_.emplace();
+  for (unsigned side = 0; side < outermost_.size() && corners_; ++side) {
+    const unsigned axis = side / 2;
+    Outermost search(tree, axis, side % 2 == 1);
+    const bool stands = had_any && isOccupied(tree, outermost_[side]);
+    if (stands) search.startFrom(outermost_[side]);
+    if (const auto voxel = search.searchIn(stands ? changed_ : kAllKeys)) {
+      outermost_[side] = *voxel;
+      (side % 2 == 1 ? corners_->second : corners_->first)[axis] = (*voxel)[axis];
+    } else {
+      corners_.reset();
+    }
   }
-  return corners;
+  changed_ = kNoKeys;
+  valid_ = true;
+  return corners_;
 }
 
 }  // namespace hoctomap::engine

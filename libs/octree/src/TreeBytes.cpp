@@ -17,7 +17,7 @@ using engine::kTreeLevels;
 
 constexpr std::size_t kNodeBytes = sizeof(float) + 1;
 
-void append(const engine::Node& node, std::string& bytes) {
+void append(const engine::Node& node, TreeBytes& out) {
   auto* const* children = engine::NodeAccess::childrenOf(node);
   const float log_odds = node.getValue();
   std::array<char, kNodeBytes> own{};
@@ -26,9 +26,10 @@ void append(const engine::Node& node, std::string& bytes) {
   for (unsigned octant = 0; children != nullptr && octant < kOctants; ++octant)
     mask |= (children[octant] != nullptr ? 1U : 0U) << octant;
   own.back() = static_cast<char>(mask);
-  bytes.append(own.data(), own.size());
+  out.bytes.append(own.data(), own.size());
+  out.leaves += mask == 0;
   for (unsigned octant = 0; octant < kOctants; ++octant)
-    if ((mask >> octant & 1U) != 0) append(static_cast<const engine::Node&>(*children[octant]), bytes);
+    if ((mask >> octant & 1U) != 0) append(static_cast<const engine::Node&>(*children[octant]), out);
 }
 
 /// The nodes of an `.ot` file by their place in it.
@@ -166,7 +167,7 @@ TreeBytes otNodes(const octomap::OcTree& tree) {
   TreeBytes out;
   out.nodes = tree.size();
   out.bytes.reserve(tree.size() * kNodeBytes);
-  if (const engine::Node* root = tree.getRoot()) append(*root, out.bytes);
+  if (const engine::Node* root = tree.getRoot()) append(*root, out);
   return out;
 }
 

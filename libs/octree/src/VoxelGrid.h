@@ -33,7 +33,19 @@ struct KeyBox {
     }
     return both;
   }
+  /// The smallest box around two that are not empty.
+  [[nodiscard]] KeyBox merged(const KeyBox& other) const {
+    KeyBox both;
+    for (std::size_t i = 0; i < 3; ++i) {
+      both.min[i] = std::min(min[i], other.min[i]);
+      both.max[i] = std::max(max[i], other.max[i]);
+    }
+    return both;
+  }
 };
+
+inline constexpr KeyBox kAllKeys;
+inline constexpr KeyBox kNoKeys{{1, 1, 1}, {0, 0, 0}};
 
 /// Keys and coordinates along one axis, with the arithmetic of octomap::OcTree to the last bit.
 class VoxelGrid {

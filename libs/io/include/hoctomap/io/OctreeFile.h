@@ -3,6 +3,7 @@
 
 #include <octomap/OcTree.h>
 
+#include <cstdint>
 #include <memory>
 #include <string>
 #include <string_view>
@@ -23,6 +24,7 @@ struct OctreeFiles {
   std::string ot;
   std::string bt;
   VoxelExtent extent;
+  std::uint64_t memory_bytes = 0;  ///< the tree's memoryUsage()
 };
 [[nodiscard]] OctreeFiles octreeFiles(const octomap::OcTree& tree);
 

@@ -15,6 +15,11 @@
 
 namespace hoctomap {
 
+namespace engine {
+struct KeyBox;
+class OccupiedCorners;
+}  // namespace engine
+
 /// The map m_i of a node (Eq. 2): an OctoMap octree in the node's own frame.
 class NodeMap {
  public:
@@ -25,6 +30,10 @@ class NodeMap {
   /// A map around an existing tree (of a file); sets `model` in it.
   /// @throws std::invalid_argument if the tree is null.
   NodeMap(std::unique_ptr<octomap::OcTree> tree, const OccupancyModel& model);
+
+  NodeMap(NodeMap&&) noexcept;
+  NodeMap& operator=(NodeMap&&) noexcept;
+  ~NodeMap();
 
   [[nodiscard]] const octomap::OcTree& tree() const { return *tree_; }
   [[nodiscard]] double resolution() const { return tree_->getResolution(); }
@@ -60,23 +69,23 @@ class NodeMap {
   [[nodiscard]] PointCloud occupiedVoxelsIn(const Eigen::AlignedBox3d& box) const;
 
   /// Box of the occupied voxels in the node's frame (whole voxels, no padding); empty if there are none.
-  /// Looks at the outermost of them only.
-  [[nodiscard]] const Eigen::AlignedBox3d& occupiedBox() const;
+  /// After scans, looks at the outermost of them only, and at what may have become occupied.
+  [[nodiscard]] Eigen::AlignedBox3d occupiedBox() const;
 
   [[nodiscard]] VoxelCounts countVoxels() const { return extent().voxels; }
   /// Looks at every leaf.
   [[nodiscard]] VoxelExtent extent() const;
 
  private:
-  void changed() { box_valid_ = voxels_valid_ = false; }
+  /// @param occupied  keys that may be occupied now and were not before
+  void changed(const engine::KeyBox& occupied);
 
   std::unique_ptr<octomap::OcTree> tree_;
   OccupancyModel model_;
   // Derived from the tree on first use after a change; one thread works on a node at a time.
   mutable bool voxels_valid_ = false;
   mutable PointCloud occupied_voxels_;
-  mutable bool box_valid_ = false;
-  mutable Eigen::AlignedBox3d occupied_box_;
+  mutable std::unique_ptr<engine::OccupiedCorners> corners_;
 };
 
 }  // namespace hoctomap

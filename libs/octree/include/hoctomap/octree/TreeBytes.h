@@ -12,8 +12,9 @@ namespace hoctomap {
 
 /// The nodes of a tree as OctoMap writes them.
 struct TreeBytes {
-  std::string bytes;        ///< what stands behind the header
-  std::uint64_t nodes = 0;  ///< what the header announces
+  std::string bytes;         ///< what stands behind the header
+  std::uint64_t nodes = 0;   ///< what the header announces
+  std::uint64_t leaves = 0;  ///< of them; of `.ot` nodes only
 };
 
 /// As `OcTree::write`: log-odds (native byte order) and a mask of children for every node, parents first.
