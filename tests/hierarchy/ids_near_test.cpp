@@ -1,8 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// MapHierarchy::idsNear and idsSince against a look at every node, through random lives of a hierarchy.
+// MapHierarchy::idsNear, nearest, idsSince and kinds against a look at every node, through random lives of a
+// hierarchy.
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
+#include <functional>
+#include <limits>
+#include <set>
 
 #include "hoctomap/hierarchy/MapHierarchy.h"
 #include "support/RandomScenes.h"
@@ -22,8 +27,8 @@ void fill(MapHierarchy& h, NodeId id, test::Rng& rng) {
 
 NodeId add(MapHierarchy& h, test::Rng& rng) {
   const auto ids = h.ids();
-  const NodeId id =
-      h.add(labels::object, NodeMap(0.05, {}), test::randomPose(rng, 5.0), ids[rng() % ids.size()]);
+  const Label label = rng() % 3 == 0 ? labels::table : labels::object;
+  const NodeId id = h.add(label, NodeMap(0.05, {}), test::randomPose(rng, 5.0), ids[rng() % ids.size()]);
   if (rng() % 8 != 0) fill(h, id, rng);  // some have no voxels, and no box
   return id;
 }
@@ -36,7 +41,7 @@ NodeId anyOf(const MapHierarchy& h, test::Rng& rng) {
 /// One random change.
 void change(MapHierarchy& h, test::Rng& rng) {
   const NodeId id = anyOf(h, rng);
-  switch (rng() % 6) {
+  switch (rng() % 8) {
     case 0:
       add(h, rng);
       break;
@@ -50,6 +55,12 @@ void change(MapHierarchy& h, test::Rng& rng) {
       fill(h, id, rng);
       break;
     case 4:
+      h.node(id).confirmation.waits = rng() % 2 == 0;
+      break;
+    case 5:
+      if (id != kRootId) h.relabel(id, rng() % 2 == 0 ? labels::table : labels::object);
+      break;
+    case 6:
       h.node(id).first_scan = rng() % 10;
       break;
     default:
@@ -75,6 +86,22 @@ void expectAsBruteForce(const MapHierarchy& h, test::Rng& rng) {
   std::vector<NodeId> later = h.ids();
   std::erase_if(later, [&](NodeId id) { return h.node(id).first_scan <= scan; });
   EXPECT_EQ(h.idsSince(scan), later);
+  std::set<NodeKind, std::greater<>> kinds;
+  h.forEachNode([&](const MapNode& node) {
+    if (!node.confirmation.waits) kinds.insert({h.depth(node.id()), node.label()});
+  });
+  EXPECT_EQ(h.kinds(), std::vector<NodeKind>(kinds.begin(), kinds.end()));
+  const auto isTable = [&](NodeId id) { return h.node(id).label() == labels::table; };
+  double least = std::numeric_limits<double>::infinity();
+  for (const NodeId id : h.ids()) {
+    const Eigen::AlignedBox3d bounds = worldBounds(h.box(id));
+    if (isTable(id) && !bounds.isEmpty()) least = std::min(least, bounds.exteriorDistance(center));
+  }
+  const auto nearest = h.nearest(center, isTable);
+  ASSERT_EQ(nearest.has_value(), std::isfinite(least));
+  if (!nearest) return;
+  EXPECT_TRUE(isTable(*nearest));
+  EXPECT_NEAR(worldBounds(h.box(*nearest)).exteriorDistance(center), least, 1e-5);
 }
 
 TEST(IdsNear, IsWhatALookAtEveryNodeFinds) {
@@ -84,7 +111,8 @@ TEST(IdsNear, IsWhatALookAtEveryNodeFinds) {
     for (int i = 0; i < 60; ++i) add(h, rng);
     for (int i = 0; i < 200; ++i) {
       if (rng() % 3 != 0) change(h, rng);  // several changes between two questions, or none
-      if (rng() % 2 != 0) expectAsBruteForce(h, rng);
+      if (rng() % 2 == 0) continue;
+      ASSERT_NO_FATAL_FAILURE(expectAsBruteForce(h, rng));
     }
   }
 }

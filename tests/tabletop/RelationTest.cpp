@@ -1,9 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <gtest/gtest.h>
 
+#include <set>
+
 #include "BoxScene.h"
+#include "TableChoice.h"
 #include "hoctomap/hierarchy/MapHierarchy.h"
 #include "hoctomap/tabletop/Tabletop.h"
+#include "support/RandomScenes.h"
 
 namespace hoctomap {
 namespace {
@@ -122,6 +126,45 @@ TEST_F(TableChoice, FarFromAllIsTheNearestTable) {
   const NodeId far = addTable(20.0, 21.0, 0.75);
   EXPECT_EQ(parentOf(0.0, 0.0, 0.76), near);
   EXPECT_EQ(parentOf(15.0, 0.0, 0.76), far);
+}
+
+/// Tables of several sizes and heights, some without voxels, some that wait; some stand on others.
+void addTables(MapHierarchy& h, test::Rng& rng, bool on_tables) {
+  for (int i = 0; i < 40; ++i) {
+    const Eigen::Vector3d half(test::uniform(rng, 0.1, 0.5), test::uniform(rng, 0.1, 0.5), 0.03);
+    const Pose at(test::uniform(rng, -4.0, 4.0), test::uniform(rng, -4.0, 4.0), 0.2 * double(rng() % 4),
+                  test::uniform(rng, -3.0, 3.0), 0.0, 0.0);
+    NodeMap map = rng() % 8 == 0 ? NodeMap(0.05, {}) : filledMap(0.05, {-half, half});
+    const auto ids = h.ids();
+    const NodeId parent = on_tables && rng() % 4 == 0 ? ids[rng() % ids.size()] : kRootId;
+    const NodeId id = h.add(labels::table, std::move(map), at, parent);
+    if (rng() % 8 == 0) h.node(id).confirmation.waits = true;
+    h.add(labels::object, filledMap(0.05, {-half / 4.0, half / 4.0}), at, id);
+  }
+}
+
+TEST(TabletopRelation, FindsTheParentThatALookAtEveryNodeFinds) {
+  RelationSet all;  // the same choice, without its reach
+  all.add(makeTabletopRelation());
+  all.setTieBreak(preferredTable);
+  const RelationSet relations = makeTabletopRelations();
+  std::set<NodeId> chosen;
+  for (std::uint64_t seed = 1; seed <= 6; ++seed) {
+    test::Rng rng(seed);
+    MapHierarchy h(labels::background, NodeMap(0.05, OccupancyModel{}));
+    addTables(h, rng, seed % 2 == 0);
+    for (int i = 0; i < 40; ++i) {
+      const Eigen::Vector3d half = Eigen::Vector3d::Constant(test::uniform(rng, 0.02, 0.1));
+      const Eigen::Isometry3d at(Eigen::Translation3d(test::uniformVector(rng, -4.5, 4.5)));
+      const NodeView below{labels::object, {at, {-half, half}}, nullptr};
+      const NodeId except = h.ids()[rng() % h.size()];
+      const NodeId* const not_this = rng() % 3 == 0 && except != kRootId ? &except : nullptr;
+      const NodeId found = relations.deepestAncestor(h, below, not_this);
+      EXPECT_EQ(found, all.deepestAncestor(h, below, not_this)) << seed << ", " << i;
+      chosen.insert(found);
+    }
+  }
+  EXPECT_GT(chosen.size(), 20U);
 }
 
 }  // namespace

@@ -98,6 +98,15 @@ std::vector<NodeId> MapHierarchy::idsSince(std::uint64_t scan) const {
   return boxes_->since(scan, *this);
 }
 
+std::optional<NodeId> MapHierarchy::nearest(const Eigen::Vector3d& point,
+                                            const std::function<bool(NodeId)>& which) const {
+  return boxes_->nearest(point, which, *this);
+}
+
+std::vector<NodeKind> MapHierarchy::kinds() const {
+  return boxes_->kinds(*this);
+}
+
 void MapHierarchy::touchSubtree(NodeId id) {
   boxes_->touch(id);
   for (const NodeId child : std::as_const(*this).node(id).children_) touchSubtree(child);

@@ -4,8 +4,10 @@
 #include <algorithm>
 #include <boost/geometry.hpp>
 #include <boost/geometry/index/rtree.hpp>
+#include <functional>
 #include <iterator>
 #include <limits>
+#include <map>
 #include <optional>
 #include <set>
 #include <unordered_map>
@@ -38,10 +40,12 @@ struct NodeBoxes::Index {
     bool touched = false;
     Eigen::AlignedBox3d indexed;  ///< as it is in the tree; empty: it is not
     std::optional<std::uint64_t> first_scan;
+    std::optional<NodeKind> kind;
   };
 
   bg::index::rtree<Entry, bg::index::quadratic<16>> tree;
   std::set<std::pair<std::uint64_t, std::uint32_t>> by_first_scan;
+  std::map<NodeKind, std::size_t, std::greater<>> kinds;
   std::unordered_map<std::uint32_t, Node> nodes;
   std::vector<NodeId> touched;
 
@@ -57,13 +61,23 @@ struct NodeBoxes::Index {
     node.first_scan = first_scan;
   }
 
+  void count(Node& node, const std::optional<NodeKind>& kind) {
+    if (node.kind == kind) return;
+    if (node.kind && --kinds.at(*node.kind) == 0) kinds.erase(*node.kind);
+    if (kind) ++kinds[*kind];
+    node.kind = kind;
+  }
+
   void refresh(const MapHierarchy& hierarchy) {
     for (const NodeId id : touched) {
       const auto found = nodes.find(id.value);
       if (found == nodes.end()) continue;  // removed meanwhile
       Node& node = found->second;
       node.touched = false;
-      order(id, node, hierarchy.node(id).first_scan);
+      const MapNode& now = hierarchy.node(id);
+      order(id, node, now.first_scan);
+      count(node, now.confirmation.waits ? std::nullopt
+                                         : std::optional<NodeKind>({hierarchy.depth(id), now.label()}));
       const Eigen::AlignedBox3d bounds = worldBounds(hierarchy.box(id));
       if (bounds.min() == node.indexed.min() && bounds.max() == node.indexed.max()) continue;
       takeOut(id, node);
@@ -88,6 +102,7 @@ void NodeBoxes::erase(NodeId id) {
   if (found == index_->nodes.end()) return;
   index_->takeOut(id, found->second);
   index_->order(id, found->second, std::nullopt);
+  index_->count(found->second, std::nullopt);
   index_->nodes.erase(found);
 }
 
@@ -111,6 +126,25 @@ std::vector<NodeId> NodeBoxes::since(std::uint64_t scan, const MapHierarchy& hie
     ids.push_back(NodeId{it->second});
   std::sort(ids.begin(), ids.end());
   return ids;
+}
+
+std::optional<NodeId> NodeBoxes::nearest(const Eigen::Vector3d& point,
+                                         const std::function<bool(NodeId)>& which,
+                                         const MapHierarchy& hierarchy) {
+  index_->refresh(hierarchy);
+  const Eigen::Vector3d p = point.array().max(-kFar).min(kFar);
+  const auto found = index_->tree.qbegin(
+      bg::index::nearest(Point(p.x(), p.y(), p.z()), 1) &&
+      bg::index::satisfies([&which](const Index::Entry& entry) { return which(NodeId{entry.second}); }));
+  if (found == index_->tree.qend()) return std::nullopt;
+  return NodeId{found->second};
+}
+
+std::vector<NodeKind> NodeBoxes::kinds(const MapHierarchy& hierarchy) {
+  index_->refresh(hierarchy);
+  std::vector<NodeKind> kinds;
+  for (const auto& [kind, count] : index_->kinds) kinds.push_back(kind);
+  return kinds;
 }
 
 }  // namespace hoctomap

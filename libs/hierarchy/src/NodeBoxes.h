@@ -3,7 +3,9 @@
 
 #include <Eigen/Geometry>
 #include <cstdint>
+#include <functional>
 #include <memory>
+#include <optional>
 #include <vector>
 
 #include "hoctomap/hierarchy/NodeId.h"
@@ -11,10 +13,11 @@
 namespace hoctomap {
 
 class MapHierarchy;
+struct NodeKind;
 
-/// Where the nodes of a hierarchy are, and since when: an R-tree over their boxes in the world and an order
-/// by first scans, kept up to date lazily. Only nodes that were touched since the last question are looked at
-/// again.
+/// Where the nodes of a hierarchy are, since when, and of what kinds: an R-tree over their boxes in the
+/// world, an order by first scans, and a count of kinds, kept up to date lazily. Only nodes that were touched
+/// since the last question are looked at again.
 class NodeBoxes {
  public:
   NodeBoxes();
@@ -30,6 +33,11 @@ class NodeBoxes {
   [[nodiscard]] std::vector<NodeId> near(const Eigen::AlignedBox3d& world, const MapHierarchy& hierarchy);
   /// Nodes whose first scan is later than `scan`, ascending.
   [[nodiscard]] std::vector<NodeId> since(std::uint64_t scan, const MapHierarchy& hierarchy);
+  /// See `MapHierarchy`.
+  [[nodiscard]] std::optional<NodeId> nearest(const Eigen::Vector3d& point,
+                                              const std::function<bool(NodeId)>& which,
+                                              const MapHierarchy& hierarchy);
+  [[nodiscard]] std::vector<NodeKind> kinds(const MapHierarchy& hierarchy);
 
  private:
   struct Index;

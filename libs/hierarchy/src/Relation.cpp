@@ -34,6 +34,7 @@ class LabelRelation : public Relation {
   [[nodiscard]] bool mayHold(const Label& above, const Label& below) const override {
     return holds_(above, below);
   }
+  [[nodiscard]] bool dependsOnLabelsOnly() const override { return true; }
   [[nodiscard]] std::string name() const override { return name_; }
 
  private:
@@ -92,12 +93,39 @@ std::vector<NodeId> RelationSet::candidateAncestors(const MapHierarchy& hierarch
 
 NodeId RelationSet::deepestAncestor(const MapHierarchy& hierarchy, const NodeView& below,
                                     const NodeId* except) const {  // Eq. (7)
+  if (const auto found = deepestInReach(hierarchy, below, except)) return *found;
   NodeId best = kRootId;
   bool found = false;
   for (const NodeId id : candidateAncestors(hierarchy, below)) {
     if (except != nullptr && hierarchy.isInSubtree(id, *except)) continue;
     if (!found || isBetter(hierarchy, id, best, below)) best = id;
     found = true;
+  }
+  return best;
+}
+
+std::optional<NodeId> RelationSet::deepestInReach(const MapHierarchy& hierarchy, const NodeView& below,
+                                                  const NodeId* except) const {
+  const bool labels_decide = std::all_of(relations_.begin(), relations_.end(), [](const auto& relation) {
+    return relation->dependsOnLabelsOnly();
+  });
+  if (!reach_ || !labels_decide || below.box.box.isEmpty()) return std::nullopt;
+  const auto kinds = hierarchy.kinds();
+  const auto deepest = std::find_if(kinds.begin(), kinds.end(),
+                                    [&](const NodeKind& kind) { return mayHold(kind.label, below.label); });
+  if (deepest == kinds.end()) return kRootId;
+  const auto isCandidate = [&](NodeId id) {
+    const MapNode& node = hierarchy.node(id);
+    return !node.confirmation.waits && mayHold(node.label(), below.label) &&
+           hierarchy.depth(id) == deepest->depth &&
+           (except == nullptr || !hierarchy.isInSubtree(id, *except));
+  };
+  const auto nearest = hierarchy.nearest(below.box.center(), isCandidate);
+  if (!nearest) return std::nullopt;
+  std::optional<NodeId> best;
+  for (const NodeId id : hierarchy.idsNear(reach_(hierarchy.view(*nearest), below))) {
+    if (!isCandidate(id) || !holds(hierarchy.view(id), below)) continue;
+    if (!best || isBetter(hierarchy, id, *best, below)) best = id;
   }
   return best;
 }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "SeamsFile.h"
 
+#include <array>
 #include <charconv>
 #include <limits>
 #include <optional>
@@ -41,12 +42,19 @@ std::int32_t takeIndex(std::string_view& row, const std::string& where) {
 
 std::string seamsText(const SeamVotes& seams) {
   std::string text = header();
+  const auto put = [&text](std::int32_t number) {
+    std::array<char, 12> digits{};
+    text.append(digits.data(), std::to_chars(digits.data(), digits.data() + digits.size(), number).ptr);
+  };
   for (const auto& [cell, votes] : seams.all()) {
-    text += std::to_string(cell.x) + "," + std::to_string(cell.y) + "," + std::to_string(cell.z) +
-            (votes.is_object ? ",1" : ",0");
+    for (const std::int32_t index : {cell.x, cell.y, cell.z}) {
+      put(index);
+      text += ',';
+    }
+    text += votes.is_object ? '1' : '0';
     for (std::size_t d = 0; d < SeamVotes::kDirections; ++d) {
       text += ',';
-      if (votes.known[d]) text += std::to_string(votes.evidence[d]);
+      if (votes.known[d]) put(votes.evidence[d]);
     }
     text += '\n';
   }

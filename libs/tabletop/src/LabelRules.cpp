@@ -112,7 +112,7 @@ RelationSet makeTabletopRelations(std::vector<NamedRule> rules) {
       makeLabelRelation("supports", [named, plain](const Label& above, const Label& below) {  // Eq. (11)
         return plain->mayHold(named->kindOf(above), named->kindOf(below));
       }));
-  relations.setTieBreak(preferredTable);
+  relations.setTieBreak(preferredTable, reachOfChoice);
   return relations;
 }
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "TableChoice.h"
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 
@@ -12,6 +13,8 @@ namespace {
 constexpr double kSink =
     0.05;  // m that an object's underside may lie below a table's surface: drift and noise
 constexpr double kAlike = 0.02;  // m, differences of height below this do not decide
+constexpr double kBroad = 0.1;   // m, of the rim of a hole, whatever the table's resolution
+constexpr double kHair = 1e-6;   // m, rounding
 
 /// How an object lies to a table.
 struct Support {
@@ -20,9 +23,14 @@ struct Support {
   double gap = std::numeric_limits<double>::infinity();     ///< m in the plan, centre to surface
 };
 
-/// The table under an object is not seen: a hole as large as the object belongs to the outline. Metres.
+/// The table under an object is not seen: a hole as large as the object, and a rim of two voxels, belongs to
+/// the outline. Metres.
+double holeUnder(const NodeView& object, double rim) {
+  return worldBounds(object.box).sizes().head<2>().norm() / 2.0 + std::min(rim, kBroad);
+}
+
 double holeUnder(const NodeView& object, const NodeMap& table) {
-  return worldBounds(object.box).sizes().head<2>().norm() / 2.0 + 2.0 * table.resolution();
+  return holeUnder(object, 2.0 * table.resolution());
 }
 
 Support supportOf(const NodeView& table, const NodeView& object) {
@@ -60,7 +68,6 @@ struct PlanDistances {
 /// Whether `far` lies so far from the object that `near` is preferred whatever their voxels are: with many
 /// tables, most are.
 bool isOutOfQuestion(const NodeView& far, const NodeView& near, const NodeView& object) {
-  constexpr double kHair = 1e-6;  // m, rounding
   if (far.map == nullptr || near.map == nullptr || far.box.box.isEmpty() || near.box.box.isEmpty() ||
       object.box.box.isEmpty()) {
     return false;
@@ -84,6 +91,15 @@ int preferredTable(const NodeView& a, const NodeView& b, const NodeView& below) 
   if (on_a.over && std::abs(on_a.height - on_b.height) > kAlike) return on_a.height < on_b.height ? -1 : 1;
   if (on_a.gap != on_b.gap) return on_a.gap < on_b.gap ? -1 : 1;
   return 0;
+}
+
+Eigen::AlignedBox3d reachOfChoice(const NodeView& table, const NodeView& below) {
+  const Eigen::Vector2d center = below.box.center().head<2>();
+  const double radius =
+      std::max(holeUnder(below, kBroad), PlanDistances(table.box, center).farthest) + 2.0 * kHair;
+  const double all = std::numeric_limits<double>::infinity();
+  return {Eigen::Vector3d(center.x() - radius, center.y() - radius, -all),
+          Eigen::Vector3d(center.x() + radius, center.y() + radius, all)};
 }
 
 }  // namespace hoctomap

@@ -10,4 +10,7 @@ namespace hoctomap {
 /// then the one with surface nearer in the plan.
 [[nodiscard]] int preferredTable(const NodeView& a, const NodeView& b, const NodeView& below);
 
+/// Where the box of a table must reach that is preferred to another one: see `RelationSet::Reach`.
+[[nodiscard]] Eigen::AlignedBox3d reachOfChoice(const NodeView& table, const NodeView& below);
+
 }  // namespace hoctomap

@@ -29,7 +29,7 @@ std::unique_ptr<Relation> makeTabletopRelation() {
 RelationSet makeTabletopRelations() {
   RelationSet relations;
   relations.add(makeTabletopRelation());
-  relations.setTieBreak(preferredTable);
+  relations.setTieBreak(preferredTable, reachOfChoice);
   return relations;
 }
 

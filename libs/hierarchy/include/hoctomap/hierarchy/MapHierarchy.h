@@ -1,8 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <compare>
+#include <functional>
 #include <map>
 #include <memory>
+#include <optional>
 #include <utility>
 #include <vector>
 
@@ -12,6 +15,13 @@
 namespace hoctomap {
 
 class NodeBoxes;
+
+/// What a node is among others.
+struct NodeKind {
+  std::size_t depth = 0;
+  Label label;
+  auto operator<=>(const NodeKind&) const = default;
+};
 
 /// The map M = {n_1, ..., n_k} of Eq. 1: a tree of map nodes, and their only owner.
 ///
@@ -66,6 +76,12 @@ class MapHierarchy {
   [[nodiscard]] std::vector<NodeId> idsNear(const Eigen::AlignedBox3d& world) const;
   /// Ids of the nodes whose first scan is later than `scan`, ascending; at the same cost.
   [[nodiscard]] std::vector<NodeId> idsSince(std::uint64_t scan) const;
+  /// The node whose box in the world is nearest to a point, of those for which `which` is true; none if no
+  /// such node has a box. The cost grows with the number of nodes that are nearer.
+  [[nodiscard]] std::optional<NodeId> nearest(const Eigen::Vector3d& point,
+                                              const std::function<bool(NodeId)>& which) const;
+  /// Kinds of the nodes that do not wait for confirmation, deepest first; at the cost of `idsNear`.
+  [[nodiscard]] std::vector<NodeKind> kinds() const;
   [[nodiscard]] NodeId nextId() const { return next_id_; }
 
   /// Adds a node under `parent` so that its frame in the world is `world_T_node`: t_i = t_p^global^-1 o it.

@@ -3,6 +3,7 @@
 
 #include <functional>
 #include <memory>
+#include <optional>
 #include <stdexcept>
 #include <string>
 #include <vector>
@@ -32,6 +33,8 @@ class Relation {
   [[nodiscard]] virtual std::string name() const = 0;
   /// Whether it can hold between nodes of these labels at all: spares the search for parents most nodes.
   [[nodiscard]] virtual bool mayHold(const Label& above, const Label& below) const;
+  /// Whether it holds wherever it may: then nobody needs to look at boxes and maps to know.
+  [[nodiscard]] virtual bool dependsOnLabelsOnly() const { return false; }
 };
 
 /// A relation from a lambda `bool(const NodeView& above, const NodeView& below)`.
@@ -53,9 +56,15 @@ class RelationSet {
   /// Which of two equally deep candidate ancestors is the better parent: negative for `a`, positive for `b`,
   /// 0 if it does not matter (then the lower id wins).
   using TieBreak = std::function<int(const NodeView& a, const NodeView& b, const NodeView& below)>;
+  /// Box in the world that holds a part of the box of every node that the tie-break may prefer to `best`, and
+  /// of `best`: spares the search for parents what is elsewhere.
+  using Reach = std::function<Eigen::AlignedBox3d(const NodeView& best, const NodeView& below)>;
 
   void add(std::unique_ptr<Relation> relation);
-  void setTieBreak(TieBreak tie_break) { tie_break_ = std::move(tie_break); }
+  void setTieBreak(TieBreak tie_break, Reach reach = {}) {
+    tie_break_ = std::move(tie_break);
+    reach_ = std::move(reach);
+  }
 
   /// Whether some relation holds for the pair.
   /// @throws RelationConflict if more than one does.
@@ -77,11 +86,15 @@ class RelationSet {
   [[nodiscard]] bool adopts(const MapHierarchy& hierarchy, NodeId above, NodeId below) const;
 
  private:
+  /// The same, of relations between labels, without a look at all nodes; none if that is needed.
+  [[nodiscard]] std::optional<NodeId> deepestInReach(const MapHierarchy& hierarchy, const NodeView& below,
+                                                     const NodeId* except) const;
   [[nodiscard]] bool isBetter(const MapHierarchy& hierarchy, NodeId candidate, NodeId best,
                               const NodeView& below) const;
 
   std::vector<std::unique_ptr<Relation>> relations_;
   TieBreak tie_break_;
+  Reach reach_;
 };
 
 }  // namespace hoctomap
