@@ -47,7 +47,9 @@ std::string textOf(const std::filesystem::path& file) {
 
 Source readSource(const std::string& path, const Pose& world_T_map) {
   const std::filesystem::path directory(path);
-  StoredMap map = readMap(directory);
+  MapReadOptions with_waiting;
+  with_waiting.to_edit = true;
+  StoredMap map = readMap(directory, with_waiting);
   if (const auto damage = findDamage(directory, map.manifest); !damage.empty()) {
     throw MapError(path + "/" + damage.front().path + ": " + damage.front().what);
   }
@@ -119,7 +121,9 @@ int merge(const MergeOptions& options) {
     skipped_scans += manifest.skipped_scans;
     std::cout << "map " << name << "  " << escapedText(source.path) << "\n";
   }
-  const MergedMaps merged = mergeMaps(parts, settings.labels);
+  MergeConfig config;
+  config.confirm_scans = settings.mappingConfig().confirm_scans;
+  const MergedMaps merged = mergeMaps(parts, settings.labels, config);
 
   MapDirectory directory(options.output,
                          {MapOpenMode::create, sources.front().config, "hoctomap " HOCTOMAP_VERSION, {}});

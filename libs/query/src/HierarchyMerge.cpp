@@ -40,13 +40,6 @@ bool isAlike(const MapNode& a, const MapNode& b) {
   return a.label() == b.label() && a.map().resolution() == b.map().resolution();
 }
 
-bool isAtOrBelow(const MapHierarchy& map, NodeId id, NodeId above) {
-  for (std::optional<NodeId> at = id; at; at = map.node(*at).parent()) {
-    if (*at == above) return true;
-  }
-  return false;
-}
-
 /// The result while part after part is taken in.
 class Merger {
  public:
@@ -70,6 +63,7 @@ class Merger {
   void fuse(const MergePart& part, NodeId from, NodeId into);
   NodeId adopt(const MergePart& part, NodeId from, NodeId parent);
   void join(NodeId whole, NodeId piece);
+  void confirm(NodeId id, const MapNode& by, const std::string& detail);
   void addExistence(NodeId id, double log_odds);
   [[nodiscard]] NodeId now(NodeId id) const;
   void note(NodeEventKind kind, NodeId id, std::string detail);
@@ -131,13 +125,15 @@ void Merger::take(const MergePart& part) {
     NodeId into = now(found->second.front());
     for (const NodeId other : found->second) {
       const NodeId piece = now(other);
-      if (piece != into) join(std::min(into, piece), std::max(into, piece));
+      // One view alone does not show that two nodes are one.
+      if (piece != into && !part.hierarchy.node(from).confirmation.waits)
+        join(std::min(into, piece), std::max(into, piece));
       into = now(into);
     }
     fuse(part, from, into);
     // What stands on a table that only this part has seen.
     const bool knows_more = merged_.hierarchy.node(into).parent() == kRootId && parent != kRootId;
-    if (knows_more && !isAtOrBelow(merged_.hierarchy, parent, into)) merged_.hierarchy.reparent(into, parent);
+    if (knows_more && !merged_.hierarchy.isInSubtree(parent, into)) merged_.hierarchy.reparent(into, parent);
     taken[from] = into;
   }
   merged_.scans += part.scans;
@@ -159,7 +155,12 @@ void Merger::fuse(const MergePart& part, NodeId from, NodeId into) {
   } else {
     addExistence(into, source.existence_log_odds);
   }
-  note(NodeEventKind::updated, into, "by node " + std::to_string(from.value) + " of map " + part.name);
+  const std::string detail = "by node " + std::to_string(from.value) + " of map " + part.name;
+  if (node.confirmation.waits) {
+    confirm(into, source, detail);
+  } else {
+    note(NodeEventKind::updated, into, detail);
+  }
 }
 
 NodeId Merger::adopt(const MergePart& part, NodeId from, NodeId parent) {
@@ -172,6 +173,7 @@ NodeId Merger::adopt(const MergePart& part, NodeId from, NodeId parent) {
   node.first_scan = merged_.scans + source.first_scan;
   node.last_scan = merged_.scans + source.last_scan;
   node.version = report_.scan;
+  node.confirmation = source.confirmation;
   note(NodeEventKind::created, id, "node " + std::to_string(from.value) + " of map " + part.name);
   return id;
 }
@@ -179,7 +181,7 @@ NodeId Merger::adopt(const MergePart& part, NodeId from, NodeId parent) {
 /// Two nodes so far, of which this part says that they are one.
 void Merger::join(NodeId whole, NodeId piece) {
   MapHierarchy& map = merged_.hierarchy;
-  if (isAtOrBelow(map, whole, piece)) map.reparent(whole, *map.node(piece).parent());
+  if (map.isInSubtree(whole, piece)) map.reparent(whole, *map.node(piece).parent());
   const std::vector<NodeId> children = map.node(piece).children();
   for (const NodeId child : children) {
     if (child != whole) map.reparent(child, whole);
@@ -192,7 +194,20 @@ void Merger::join(NodeId whole, NodeId piece) {
   addExistence(whole, map.node(piece).existence_log_odds);
   note(NodeEventKind::merged, piece, "into node " + std::to_string(whole.value));
   joined_[piece] = whole;
-  merged_.removed.push_back({map.remove(piece), world_T_piece, report_.scan});
+  MapNode gone = map.remove(piece);
+  if (map.node(whole).confirmation.waits) confirm(whole, gone, "with node " + std::to_string(piece.value));
+  if (!gone.confirmation.waits) merged_.removed.push_back({std::move(gone), world_T_piece, report_.scan});
+}
+
+/// A node that waits has been shown again, by another node that has become part of it: as in one log, views
+/// confirm each other (docs/decisions/0022).
+void Merger::confirm(NodeId id, const MapNode& by, const std::string& detail) {
+  Confirmation& confirmation = merged_.hierarchy.node(id).confirmation;
+  confirmation.shown += by.confirmation.shown;
+  confirmation.missed += by.confirmation.missed;
+  if (by.confirmation.waits && confirmation.shown < config_.confirm_scans) return;
+  confirmation = {};
+  note(NodeEventKind::created, id, detail);
 }
 
 void Merger::addExistence(NodeId id, double log_odds) {
@@ -204,6 +219,7 @@ void Merger::addExistence(NodeId id, double log_odds) {
   entry.evidence.p_measurement = probability(log_odds);
   node.existence_log_odds =
       ExistenceFilter(profile.existence).update(node.existence_log_odds, entry.evidence.p_measurement);
+  if (node.confirmation.waits) return;  // nobody has heard of it
   entry.p_posterior = node.existence();
   report_.existence.push_back(entry);
 }
@@ -215,6 +231,7 @@ NodeId Merger::now(NodeId id) const {
 
 void Merger::note(NodeEventKind kind, NodeId id, std::string detail) {
   const MapNode& node = merged_.hierarchy.node(id);
+  if (node.confirmation.waits) return;
   report_.events.push_back({kind, id, node.label(), node.existence(), std::move(detail)});
 }
 
