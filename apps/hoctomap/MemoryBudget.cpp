@@ -1,12 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "MemoryBudget.h"
 
-#include <mrpt/system/memory.h>
 #include <sys/resource.h>
 #include <unistd.h>
 
 #include <algorithm>
-#include <fstream>
 #include <string>
 
 #include "hoctomap/geometry/Errors.h"
@@ -20,18 +18,6 @@ constexpr double kMegabyte = 1e6;
 std::size_t nineTenthsOfTheMachine() {
   const auto pages = static_cast<std::size_t>(std::max(0L, sysconf(_SC_PHYS_PAGES)));
   return pages / 10 * 9 * static_cast<std::size_t>(sysconf(_SC_PAGESIZE));
-}
-
-/// What the process has asked for; under a sanitizer, whose own memory is terabytes, what it has of that.
-std::size_t memoryHeld() {
-#ifdef HOCTOMAP_SANITIZED
-  std::size_t asked = 0;
-  std::size_t resident = 0;
-  std::ifstream("/proc/self/statm") >> asked >> resident;
-  return resident * static_cast<std::size_t>(sysconf(_SC_PAGESIZE));
-#else
-  return mrpt::system::getMemoryUsage();
-#endif
 }
 
 /// Allocations fail from here on. What is reserved ahead of its use counts, hence more than the budget.
@@ -53,16 +39,19 @@ std::string megabytes(std::size_t bytes) {
 
 MemoryBudget::MemoryBudget(double megabytes)
     : budget_(megabytes < 0.0 ? nineTenthsOfTheMachine() : static_cast<std::size_t>(megabytes * kMegabyte)),
-      before_(memoryHeld()) {
+      before_(residentMemory()) {
   limitAllocation(budget_);
 }
 
 void MemoryBudget::requireRoom(std::uint64_t scan) {
-  const std::size_t now = memoryHeld();
-  largest_growth_ = std::max(largest_growth_, now > before_ ? now - before_ : 0);
+  const ResidentMemory now = residentMemory();
+  // What a scan gave back before its end counts as well. One that stayed below the highest point so far has
+  // shown nothing new.
+  if (now.peak > before_.peak)
+    largest_growth_ = std::max(largest_growth_, now.peak - std::min(now.peak, before_.now));
   before_ = now;
-  if (now + largest_growth_ <= budget_) return;
-  throw LimitError("scan " + std::to_string(scan) + ": the program holds " + megabytes(now) +
+  if (now.now + largest_growth_ <= budget_) return;
+  throw LimitError("scan " + std::to_string(scan) + ": the program holds " + megabytes(now.now) +
                    " and may need up to " + megabytes(largest_growth_) +
                    " for a scan, more than its budget of " + megabytes(budget_) + " ([limits] max_memory)");
 }

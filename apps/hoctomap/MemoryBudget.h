@@ -4,6 +4,8 @@
 #include <cstddef>
 #include <cstdint>
 
+#include "ResidentMemory.h"
+
 namespace hoctomap {
 
 /// The memory that a run may take. Scans are refused before they would exceed it, so that the machine does
@@ -19,8 +21,8 @@ class MemoryBudget {
   void requireRoom(std::uint64_t scan);
 
  private:
-  std::size_t budget_;  ///< bytes
-  std::size_t before_;  ///< held when a scan was last asked about
+  std::size_t budget_;     ///< bytes
+  ResidentMemory before_;  ///< when a scan was last asked about
   std::size_t largest_growth_ = 0;
 };
 

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Progress.h"
 
-#include <mrpt/system/memory.h>
 #include <unistd.h>
 
 #include <algorithm>
@@ -9,6 +8,7 @@
 #include <iostream>
 #include <sstream>
 
+#include "ResidentMemory.h"
 #include "Terminal.h"
 
 namespace hoctomap {
@@ -37,7 +37,7 @@ std::string Progress::status(std::uint64_t scans, std::optional<std::size_t> nod
   if (total_) text << "/" << *total_;
   text << " scans, " << std::fixed << std::setprecision(1) << rate << " scans/s";
   if (nodes) text << ", " << *nodes << (*nodes == 1 ? " node" : " nodes");
-  text << ", " << mrpt::system::getMemoryUsage() / (1024UL * 1024UL) << " MB";
+  text << ", " << residentMemory().now / 1'000'000 << " MB";
   if (total_ && rate > 0.0 && scans <= *total_) {
     text << ", " << durationText(static_cast<double>(*total_ - scans) / rate) << " left";
   }
