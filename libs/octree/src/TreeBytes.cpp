@@ -2,9 +2,11 @@
 #include "hoctomap/octree/TreeBytes.h"
 
 #include <array>
+#include <bit>
 #include <cmath>
 #include <cstring>
-#include <optional>
+#include <stdexcept>
+#include <utility>
 #include <vector>
 
 #include "TreeAccess.h"
@@ -17,20 +19,49 @@ using engine::kTreeLevels;
 
 constexpr std::size_t kNodeBytes = sizeof(float) + 1;
 
-void append(const engine::Node& node, TreeBytes& out) {
-  auto* const* children = engine::NodeAccess::childrenOf(node);
-  const float log_odds = node.getValue();
-  std::array<char, kNodeBytes> own{};
-  std::memcpy(own.data(), &log_odds, sizeof log_odds);
-  unsigned mask = 0;
-  for (unsigned octant = 0; children != nullptr && octant < kOctants; ++octant)
-    mask |= (children[octant] != nullptr ? 1U : 0U) << octant;
-  own.back() = static_cast<char>(mask);
-  out.bytes.append(own.data(), own.size());
-  out.leaves += mask == 0;
-  for (unsigned octant = 0; octant < kOctants; ++octant)
-    if ((mask >> octant & 1U) != 0) append(static_cast<const engine::Node&>(*children[octant]), out);
+/// Octants of a mask, ascending.
+template <typename Visit>
+void forEachOctant(unsigned mask, const Visit& visit) {
+  for (; mask != 0; mask &= mask - 1) visit(static_cast<unsigned>(std::countr_zero(mask)));
 }
+
+/// Writes the `.ot` nodes of a tree, parents first.
+class OtWriter {
+ public:
+  explicit OtWriter(const octomap::OcTree& tree) {
+    out_.nodes = tree.size();
+    out_.bytes.resize(tree.size() * kNodeBytes);
+    if (tree.getRoot() != nullptr) write(*tree.getRoot());
+    if (end_ != out_.bytes.size()) throw std::logic_error("a tree has other nodes than it counts");
+  }
+  [[nodiscard]] TreeBytes take() && { return std::move(out_); }
+
+ private:
+  void write(const engine::Node& node) {
+    const auto* const* children = engine::NodeAccess::childrenOf(node);
+    unsigned mask = 0;
+    for (unsigned octant = 0; children != nullptr && octant < kOctants; ++octant) {
+      if (children[octant] == nullptr) continue;
+      mask |= 1U << octant;
+      __builtin_prefetch(
+          children[octant]);  // they lie anywhere in memory, and are wanted one after the other
+    }
+    put(node.getValue(), mask);
+    forEachOctant(mask, [&](unsigned octant) { write(static_cast<const engine::Node&>(*children[octant])); });
+  }
+
+  void put(float log_odds, unsigned mask) {
+    if (end_ + kNodeBytes > out_.bytes.size()) throw std::logic_error("a tree has more nodes than it counts");
+    char* const at = out_.bytes.data() + end_;
+    std::memcpy(at, &log_odds, sizeof log_odds);
+    at[sizeof log_odds] = static_cast<char>(mask);
+    end_ += kNodeBytes;
+    out_.leaves += mask == 0;
+  }
+
+  TreeBytes out_;
+  std::size_t end_ = 0;  ///< of what is written
+};
 
 /// The nodes of an `.ot` file by their place in it.
 class OtNodes {
@@ -76,41 +107,39 @@ class BtWriter {
   };
 
   /// The value that the next node has as a leaf, or would have if it was pruned.
-  std::optional<bool> look(unsigned depth) {
+  enum class Value : unsigned char { free, occupied, none };
+  Value look(unsigned depth) {
     const std::size_t place = seen_.size();
     seen_.emplace_back();
     const unsigned children = nodes_.children(place);
     unsigned leaves = 0;
     unsigned occupied = 0;
-    for (unsigned octant = 0; octant < kOctants; ++octant) {
-      if ((children >> octant & 1U) == 0) continue;
-      const auto value = look(depth + 1);
-      leaves += value.has_value();
-      occupied += value.value_or(false);
-    }
+    forEachOctant(children, [&](unsigned) {
+      const Value value = look(depth + 1);
+      leaves += value != Value::none;
+      occupied += value == Value::occupied;
+    });
     Seen& seen = seen_[place];
     seen.next = static_cast<std::uint32_t>(seen_.size());
     seen.prunable = leaves == kOctants && (occupied == 0 || occupied == kOctants);
     prunable_[depth] += seen.prunable;
     seen.occupied = seen.prunable ? occupied > 0 : nodes_.isOccupied(place);
-    if (children != 0 && !seen.prunable) return std::nullopt;
-    return seen.occupied;
+    if (children != 0 && !seen.prunable) return Value::none;
+    return seen.occupied ? Value::occupied : Value::free;
   }
 
   void write(std::size_t place, unsigned depth) {
-    const unsigned children = nodes_.children(place);
     unsigned kinds = 0;
     std::array<std::size_t, kOctants> inner{};  // places; 0, that of the root: none
     std::size_t next = place + 1;
-    for (unsigned octant = 0; octant < kOctants; ++octant) {
-      if ((children >> octant & 1U) == 0) continue;
+    forEachOctant(nodes_.children(place), [&](unsigned octant) {
       const Seen& seen = seen_[next];
       const bool is_leaf = seen.next == next + 1 || (seen.prunable && depth + 1 >= pruned_from_);
       kinds |= (!is_leaf ? kInner : seen.occupied ? kOccupied : kFree) << (2 * octant);
       if (!is_leaf) inner[octant] = next;
       next = seen.next;
       ++out_.nodes;
-    }
+    });
     out_.bytes.push_back(static_cast<char>(kinds & 0xFFU));
     out_.bytes.push_back(static_cast<char>(kinds >> 8U));
     for (const std::size_t child : inner)
@@ -128,47 +157,62 @@ class BtWriter {
   TreeBytes out_;
 };
 
+/// Least and greatest keys of cubes of voxels.
+struct KeyExtent {
+  Eigen::Array3i low = Eigen::Array3i::Constant(1 << kTreeLevels);
+  Eigen::Array3i high = -low;  ///< behind the last voxel
+
+  void extend(const octomap::OcTreeKey& first, int edge) {
+    const Eigen::Array3i key(first[0], first[1], first[2]);
+    low = low.min(key);
+    high = high.max(key + edge);
+  }
+  [[nodiscard]] Eigen::AlignedBox3d box(double resolution) const {
+    if ((low > high).any()) return {};
+    constexpr int kMiddle = 1 << (kTreeLevels - 1);  // key of the first voxel behind the origin
+    const auto corner = [&](const Eigen::Array3i& key) -> Eigen::Vector3d {
+      return resolution * (key - kMiddle).cast<double>().matrix();
+    };
+    return {corner(low), corner(high)};
+  }
+};
+
 class ExtentWalk {
  public:
-  ExtentWalk(const OtNodes& nodes, double resolution) : nodes_(nodes), resolution_(resolution) {
+  explicit ExtentWalk(const OtNodes& nodes) : nodes_(nodes) {
     if (nodes.size() > 0) walk(kTreeLevels, octomap::OcTreeKey(0, 0, 0));
   }
-  [[nodiscard]] const VoxelExtent& extent() const { return extent_; }
+  [[nodiscard]] VoxelExtent extent(double resolution) const {
+    return {known_.box(resolution), occupied_.box(resolution), voxels_};
+  }
 
  private:
   void walk(unsigned level, const octomap::OcTreeKey& first) {
     const std::size_t place = next_++;
     const unsigned children = nodes_.children(place);
     if (children == 0) add(level, first, nodes_.isOccupied(place));
-    for (unsigned octant = 0; octant < kOctants; ++octant)
-      if ((children >> octant & 1U) != 0) walk(level - 1, engine::childKey(first, level, octant));
+    forEachOctant(children,
+                  [&](unsigned octant) { walk(level - 1, engine::childKey(first, level, octant)); });
   }
 
   void add(unsigned level, const octomap::OcTreeKey& first, bool occupied) {
-    constexpr double kMiddle = 1U << (kTreeLevels - 1);  // key of the first voxel behind the origin
-    const auto edge = std::uint64_t{1} << level;
-    const Eigen::Array3d low = Eigen::Array3d(first[0], first[1], first[2]) - kMiddle;
-    const Eigen::AlignedBox3d cube(resolution_ * low.matrix(),
-                                   resolution_ * (low + static_cast<double>(edge)).matrix());
-    extent_.known.extend(cube);
-    if (occupied) extent_.occupied.extend(cube);
-    (occupied ? extent_.voxels.occupied : extent_.voxels.free) += edge * edge * edge;
+    const int edge = 1 << level;
+    known_.extend(first, edge);
+    if (occupied) occupied_.extend(first, edge);
+    (occupied ? voxels_.occupied : voxels_.free) += std::uint64_t{1} << (3 * level);
   }
 
   const OtNodes& nodes_;
-  double resolution_;
   std::size_t next_ = 0;
-  VoxelExtent extent_;
+  KeyExtent known_;
+  KeyExtent occupied_;
+  VoxelCounts voxels_;
 };
 
 }  // namespace
 
 TreeBytes otNodes(const octomap::OcTree& tree) {
-  TreeBytes out;
-  out.nodes = tree.size();
-  out.bytes.reserve(tree.size() * kNodeBytes);
-  if (const engine::Node* root = tree.getRoot()) append(*root, out);
-  return out;
+  return OtWriter(tree).take();
 }
 
 TreeBytes btNodes(const TreeBytes& ot, float occupied_from) {
@@ -178,7 +222,7 @@ TreeBytes btNodes(const TreeBytes& ot, float occupied_from) {
 
 VoxelExtent extentOf(const TreeBytes& ot, double resolution, float occupied_from) {
   const OtNodes nodes(ot, occupied_from);
-  return ExtentWalk(nodes, resolution).extent();
+  return ExtentWalk(nodes).extent(resolution);
 }
 
 }  // namespace hoctomap
