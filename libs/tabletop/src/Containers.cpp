@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Containers.h"
 
+#include <Eigen/Geometry>
 #include <algorithm>
 #include <map>
 
@@ -14,6 +15,7 @@ constexpr double kLeastSolid = -3.0;    // rad/m below which it is a solid thing
 constexpr double kSharedInside = 0.2;   // of the smaller perimeter, for two insides to be one
 constexpr double kSharedRim = 0.2;      // of the inside's perimeter, for a region to be its outside
 constexpr double kLeastOutside = 0.15;  // of the inside's area
+constexpr double kDeepest = 1.5;        // step at the rim, by the extent of the inside
 constexpr double kEnclosed = 0.7;       // of its perimeter, for what lies in a container to belong to it
 
 std::size_t at(std::int32_t i) {
@@ -25,17 +27,25 @@ struct Shared {
   double length = 0.0;   ///< pixel pairs
   double contact = 0.0;  ///< of them those where the surface goes on
   double behind = 0.0;   ///< steps at which the other region is in front
+  double jumps = 0.0;    ///< all steps
+  double depth = 0.0;    ///< m, of these together
 
-  [[nodiscard]] double rim() const { return contact + behind; }
+  /// Pixel pairs of the rim between an inside of this extent (m) and its outside. Over the rim, the sensor
+  /// sees as far into a container as it is wide and deep: what is hidden farther behind stands behind it.
+  [[nodiscard]] double rim(double extent) const {
+    return contact + (depth <= kDeepest * extent * jumps ? behind : 0.0);
+  }
 };
 
 struct RegionShape {
   double area = 0.0;
   double perimeter = 0.0;
-  double bend = 0.0;   ///< curvature x pixels
-  double inner = 0.0;  ///< pixels of its inner borders
+  double bend = 0.0;            ///< curvature x pixels
+  double inner = 0.0;           ///< pixels of its inner borders
+  Eigen::AlignedBox3d centers;  ///< of its patches
   std::map<std::int32_t, Shared> shared;
 
+  [[nodiscard]] double extent() const { return centers.isEmpty() ? 0.0 : centers.diagonal().norm(); }
   [[nodiscard]] double curvature() const { return inner > 0.0 ? bend / inner : 0.0; }
 };
 
@@ -44,6 +54,7 @@ std::vector<RegionShape> shapesOf(const PatchGraph& graph, const PatchRegions& r
   for (std::size_t k = 0; k < graph.area.size(); ++k) {
     shapes[at(regions.of_patch[k])].area += graph.area[k];
     shapes[at(regions.of_patch[k])].perimeter += graph.perimeter[k];
+    shapes[at(regions.of_patch[k])].centers.extend(graph.centers[k]);
   }
   for (const auto& border : graph.borders) {
     const auto a = regions.of_patch[at(border.a)];
@@ -63,6 +74,10 @@ std::vector<RegionShape> shapesOf(const PatchGraph& graph, const PatchRegions& r
     of_b.length += border.length;
     of_a.contact += contact;
     of_b.contact += contact;
+    for (Shared* shared : {&of_a, &of_b}) {
+      shared->jumps += border.jumps;
+      shared->depth += border.depth;
+    }
     of_a.behind += (border.jumps - border.in_front) / 2.0;
     of_b.behind += (border.jumps + border.in_front) / 2.0;
   }
@@ -126,11 +141,12 @@ Flags joinOutsides(const PatchGraph& graph, const Flags& inside, PatchRegions& r
     if (!inside[at(r)]) continue;
     std::int32_t outside = -1;
     double most = kSharedRim * shapes[at(r)].perimeter;
+    const double extent = shapes[at(r)].extent();
     for (const auto& [other, shared] : shapes[at(r)].shared) {
-      if (inside[at(other)] || shared.rim() <= most) continue;
+      if (inside[at(other)] || shared.rim(extent) <= most) continue;
       if (shapes[at(other)].area < kLeastOutside * shapes[at(r)].area) continue;
       outside = other;
-      most = shared.rim();
+      most = shared.rim(extent);
     }
     joined[at(r)] = 1;
     if (outside < 0) continue;

@@ -93,6 +93,7 @@ class BorderCounter {
     const double between = of_a.at(u, v) - of_b.at(u, v);
     if (std::abs(between) <= jump) return;
     border.jumps += 1.0;
+    border.depth += step / (static_cast<double>(bridged_.w[i]) * static_cast<double>(bridged_.w[j]));
     border.in_front += between > 0.0 ? 1.0 : -1.0;
   }
 

@@ -17,6 +17,7 @@ struct PatchBorder {
   std::int32_t b = 0;     ///< a < b
   double length = 0.0;    ///< pixel pairs across the border
   double jumps = 0.0;     ///< of them those at which the surface steps
+  double depth = 0.0;     ///< m, of all these steps together
   double in_front = 0.0;  ///< of these, those at which a is nearer, less those at which b is
   double crease = 0.0;    ///< degrees between the normals, positive where the surface is concave
   double distance = 0.0;  ///< m between the centres
