@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "BridgedNodes.h"
+#include "FreeGap.h"
 #include "NodeEvidence.h"
 #include "NodeRegions.h"
 #include "SurfacePoints.h"
@@ -24,6 +25,19 @@ double shareInside(const PointCloud& world_points, const Obb& box) {
     return box.box.contains(frame_T_world * p.cast<double>());
   });
   return static_cast<double>(inside) / static_cast<double>(std::max<std::size_t>(1, world_points.size()));
+}
+
+/// Whether a scan sees through between two regions of a node.
+bool isSeenBetween(const MapHierarchy& hierarchy, NodeId id, Region a, Region b,
+                   const SurfaceRegions& regions, const ScanSight& sight) {
+  PointCloud in_a;
+  PointCloud in_b;
+  for (const auto& p : worldSurface(hierarchy, id)) {
+    const auto region = regions.at(SeamVotes::cellOf(p));
+    if (region == a) in_a.push_back(p);
+    if (region == b) in_b.push_back(p);
+  }
+  return hasFreeGap(sight, in_a, in_b);
 }
 
 /// The regions of a segment, point by point.
@@ -145,6 +159,11 @@ void HierarchyMapper::mergeOwners(const Measurement& z, const SurfaceRegions& re
 
 void HierarchyMapper::splitHolders(const Measurement& z, const SurfaceRegions& regions, NodeRegions& held,
                                    UpdateReport& report) {
+  std::optional<ScanSight> sight;  // most scans have no need of it
+  const auto areApart = [&](NodeId id, Region a, Region b) {
+    if (!sight) sight.emplace(z, config_.reidentification.registration.near, config_.reidentification.noise);
+    return isSeenBetween(hierarchy_, id, a, b, regions, *sight);
+  };
   for (Region region = 0; region < regions.count(); ++region) {
     for (const NodeId id : held.nodes()) {
       if (!held.othersOf(id).contains(region)) continue;
@@ -152,7 +171,8 @@ void HierarchyMapper::splitHolders(const Measurement& z, const SurfaceRegions& r
       if (!owners.empty()) {  // a scrap of a neighbour
         handOver(z, id, owners.front(), region, regions);
         held.give(id, owners.front(), region);
-      } else if (regions.meet(region, *held.mainOf(id))) {
+      } else if (const Region main = *held.mainOf(id);
+                 regions.meet(region, main) || areApart(id, main, region)) {
         held.give(id, splitOff(z, id, region, regions, report), region);
       }
     }
