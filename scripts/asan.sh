@@ -14,6 +14,9 @@ left_out=(
   '^octree/BlockScanUpdate\.(EqualsStockInsertPointCloud|TakesTurnsWithStockOctomap)$'
   # OctoMap's MapCollection, with which they read what is exported, never frees its nodes.
   '^cli/Export\.(StockMapCollectionAnswersAcrossNodes|OfADamagedMapWhatIsIntact)$'
+  # Memory and scenes under a sanitizer are not those of the program: it takes more; and clang evaluates the arguments of a call in
+  # another order than GCC, so that seeds give other scenes than the one that this test was written for.
+  '^(cli/Estimate\.LiesWithinAFactorOfTwo|experiments/ChangeRun\.ATableCarriesItsObjects)$'
   # The programs of `cli` once more, interpreters and browsers.
   '^(docs|report|workflows|install)/'
 )

@@ -58,7 +58,8 @@ TEST(NodeMap, BoxesAndRegionsAreThoseOfAllVoxels) {
   for (int scan = 0; scan < 6; ++scan) {  // boxes grow, and shrink where beams clear
     Beams beams;
     beams.origin = test::uniformVector(rng, -2.0, 2.0).cast<float>();
-    beams.hits = test::boxSurface(rng, test::randomBox(rng, 1.0), 1500);
+    const PointCloud hits = test::boxSurface(rng, test::randomBox(rng, 1.0), 1500);
+    beams.hits = hits;
     map.update(*makeReferenceScanUpdate(), beams);
     const PointCloud all = map.occupiedVoxels();
     EXPECT_TRUE(map.occupiedBox().isApprox(boxOf(all, 0.02), 1e-6)) << scan;
