@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include <algorithm>
 #include <filesystem>
 #include <iostream>
 #include <memory>
@@ -26,6 +27,7 @@ struct CommandOptions {
   int first = 1;
   int views = 10;
   std::string log;
+  std::vector<std::string> orders;
   bool verbose = false;
 };
 
@@ -53,9 +55,26 @@ void printMap(const MappedLog& map) {
   for (const auto& event : map.events) std::cerr << "  " << event << "\n";
 }
 
+bool isAsked(const CommandOptions& options, ScanOrder order) {
+  return options.orders.empty() ||
+         std::find(options.orders.begin(), options.orders.end(), toString(order)) != options.orders.end();
+}
+
+/// Objects a part of which is missed, and how.
+std::string fateRows(const std::string& log, ScanOrder order, const MappedLog& map, const SeenScene& truth) {
+  std::string rows;
+  for (const ObjectFate& fate : objectFates(map, truth)) {
+    rows += log + "," + toString(order) + "," + fate.name + "," + numberText(fate.points);
+    for (const double share : {fate.found, fate.in_other_half, fate.in_another, fate.nowhere})
+      rows += "," + numberText(share, 3);
+    rows += "," + fate.joined_with + "\n";
+  }
+  return rows;
+}
+
 /// The log in every order.
 std::vector<Row> runLog(const std::string& name, const SeenScene& seen, const Settings& settings,
-                        const CommandOptions& options) {
+                        const CommandOptions& options, std::string& fates) {
   std::vector<Row> rows;
   MappedLog forward;
   if (seen.objects > 0) {
@@ -64,8 +83,10 @@ std::vector<Row> runLog(const std::string& name, const SeenScene& seen, const Se
               << numberText(views.share75, 4) << std::endl;
   }
   for (const ScanOrder order : kOrders) {
+    if (!isAsked(options, order)) continue;
     const MappedLog map = mapScans(reordered(seen.scans, order, 7), settings);
     if (order == ScanOrder::forward) forward = map;
+    if (seen.objects > 0) fates += fateRows(name, order, map, seen);
     Row row{name, order, {}, map.objects.size(), matchedObjects(forward, map, kSamePlace)};
     if (seen.objects > 0) row.score = scoreIdentity(map, seen);
     rows.push_back(row);
@@ -75,11 +96,12 @@ std::vector<Row> runLog(const std::string& name, const SeenScene& seen, const Se
   return rows;
 }
 
-std::string summary(const std::vector<Row>& rows) {
+std::string summary(const std::vector<Row>& rows, const CommandOptions& options) {
   std::string table =
       "| order | logs | objects | nodes | also forward | P | R | F | F >= 0.75 "
       "|\n|---|---|---|---|---|---|---|---|---|\n";
   for (const ScanOrder order : kOrders) {
+    if (!isAsked(options, order)) continue;
     SegmentationScore sum;
     double logs = 0.0;
     std::size_t nodes = 0;
@@ -105,15 +127,16 @@ int identity(const CommandOptions& options) {
       options.config.empty() ? std::nullopt : std::optional<std::filesystem::path>(options.config);
   const Settings settings = loadSettings(file, options.overrides);
   std::vector<Row> rows;
+  std::string fates = "log,order,object,points,found,in_other_half,in_another,nowhere,joined_with\n";
   const auto take = [&](const std::vector<Row>& more) { rows.insert(rows.end(), more.begin(), more.end()); };
   if (!options.log.empty()) {
     SeenScene seen;
     seen.scans = readScans({options.log, 0, 1, std::nullopt, settings.sensor.min_range});
-    take(runLog(std::filesystem::path(options.log).stem().string(), seen, settings, options));
+    take(runLog(std::filesystem::path(options.log).stem().string(), seen, settings, options, fates));
   } else {
     for (int seed = options.first; seed < options.first + options.scenes; ++seed) {
       const CrowdedScene scene = makeCrowdedScene(static_cast<std::uint64_t>(seed), options.views);
-      take(runLog(scene.name, see(scene), settings, options));
+      take(runLog(scene.name, see(scene), settings, options, fates));
     }
   }
   std::string csv = "log,order,objects,nodes,also_forward,precision,recall,f,share75\n";
@@ -121,8 +144,9 @@ int identity(const CommandOptions& options) {
   const std::filesystem::path output(options.output);
   std::filesystem::create_directories(output);
   writeTextFile(output / "identity.csv", csv);
-  writeTextFile(output / "identity.md", summary(rows));
-  std::cout << summary(rows) << std::flush;
+  writeTextFile(output / "objects.csv", fates);
+  writeTextFile(output / "identity.md", summary(rows, options));
+  std::cout << summary(rows, options) << std::flush;
   return 0;
 }
 
@@ -145,6 +169,9 @@ void addIdentityCommand(CLI::App& app, Action& action) {
   command
       ->add_option("--log", options->log, "instead of scenes: a log, whose maps are compared with each other")
       ->type_name("LOG");
+  command->add_option("--order", options->orders, "only these orders")
+      ->type_name("ORDER ...")
+      ->check(CLI::IsMember({"forward", "reverse", "shuffled"}));
   command->add_flag("-v,--verbose", options->verbose, "nodes and events of every map");
   command->footer("\nExample:\n  hoctomap-experiments identity -o out/identity\n");
   command->callback([options, &action] { action = [options] { return identity(*options); }; });

@@ -34,6 +34,7 @@ SeenScene twoWalls() {
   scene.object.assign(625, 0);
   scene.object.resize(1250, 1);
   scene.objects = 2;
+  scene.names = {"left", "right"};
   return scene;
 }
 
@@ -49,6 +50,25 @@ TEST(Identity, TwoObjectsInOneNodeAreOneMissed) {
   const SegmentationScore score = scoreIdentity(map, twoWalls());
   EXPECT_NEAR(score.precision, 0.5, 0.02);
   EXPECT_NEAR(score.recall, 0.5, 0.02);
+}
+
+TEST(Identity, WhatBecameOfAnObjectIsNamed) {
+  const MappedLog joined{{object(1, both(wall(0.0F), wall(0.1F)))}, 1, {}};
+  const auto together = objectFates(joined, twoWalls());
+  ASSERT_EQ(together.size(), 2U);
+  // Both are one node: it is one of them, and the other is joined with that.
+  EXPECT_EQ((together[0].joined_with == "right") + (together[1].joined_with == "left"), 1);
+  for (const ObjectFate& fate : together) EXPECT_NEAR(fate.found + fate.in_another, 1.0, 1e-9);
+
+  const PointCloud right = wall(0.1F);
+  const PointCloud lower(right.begin(), right.begin() + static_cast<std::ptrdiff_t>(right.size() / 3));
+  const PointCloud upper(right.begin() + static_cast<std::ptrdiff_t>(right.size() / 3), right.end());
+  const MappedLog halves{{object(1, lower), object(2, upper)}, 1, {}};
+  const auto parted = objectFates(halves, twoWalls());
+  EXPECT_NEAR(parted[0].nowhere, 1.0, 0.1);
+  EXPECT_NEAR(parted[1].found, 2.0 / 3.0, 0.1);
+  EXPECT_NEAR(parted[1].in_other_half, 1.0 / 3.0, 0.1);
+  EXPECT_EQ(parted[1].joined_with, "");
 }
 
 TEST(Identity, ObjectsOfTwoMapsAreMatchedOneToOne) {

@@ -35,6 +35,34 @@ MappedObject objectOf(const MapHierarchy& map, NodeId id) {
   return object;
 }
 
+constexpr std::uint16_t kNoNode = 1;  // nodes count from 100
+
+/// Of every point the node that has the nearest voxel within 8 mm.
+std::vector<std::uint16_t> nodesOf(const MappedLog& map, const PointCloud& points) {
+  constexpr float kNear = 0.008F;  // m
+  std::map<Cell, std::vector<std::pair<Eigen::Vector3f, std::uint16_t>>> voxels;
+  for (std::size_t n = 0; n < map.objects.size(); ++n) {
+    for (const auto& p : map.objects[n].world_voxels)
+      voxels[cellOf(p, kNear)].emplace_back(p, static_cast<std::uint16_t>(100 + n));
+  }
+  std::vector<std::uint16_t> nodes;
+  for (const auto& p : points) {
+    std::uint16_t node = kNoNode;
+    float nearest = kNear * kNear;
+    const auto [x, y, z] = cellOf(p, kNear);
+    for (int step = 0; step < 27; ++step) {
+      const auto found = voxels.find({x + step / 9 - 1, y + step / 3 % 3 - 1, z + step % 3 - 1});
+      if (found == voxels.end()) continue;
+      for (const auto& [q, n] : found->second) {
+        const float distance = (q - p).squaredNorm();
+        if (distance < nearest) std::tie(nearest, node) = std::pair(distance, n);
+      }
+    }
+    nodes.push_back(node);
+  }
+  return nodes;
+}
+
 }  // namespace
 
 std::string toString(ScanOrder order) {
@@ -113,6 +141,8 @@ SeenScene see(const CrowdedScene& scene) {
     seen.object.push_back(number);
   }
   seen.objects = numbers.size();
+  for (const auto& [solid, number] : numbers)
+    seen.names.push_back(scene.simulation.scene.solid(SolidId{solid}).name);
   return seen;
 }
 
@@ -130,38 +160,46 @@ SegmentationScore scoreViews(const SeenScene& scene, const Segmentation& segment
 }
 
 SegmentationScore scoreIdentity(const MappedLog& map, const SeenScene& truth) {
-  constexpr float kNear = 0.008F;  // m
-  std::map<Cell, std::vector<std::pair<Eigen::Vector3f, std::uint16_t>>> voxels;
-  for (std::size_t n = 0; n < map.objects.size(); ++n) {
-    for (const auto& p : map.objects[n].world_voxels)
-      voxels[cellOf(p, kNear)].emplace_back(p, static_cast<std::uint16_t>(100 + n));
-  }
-  const auto nodeAt = [&](const Eigen::Vector3f& p) {
-    std::uint16_t node = 1;
-    float nearest = kNear * kNear;
-    const auto [x, y, z] = cellOf(p, kNear);
-    for (int dx = -1; dx <= 1; ++dx) {
-      for (int dy = -1; dy <= 1; ++dy) {
-        for (int dz = -1; dz <= 1; ++dz) {
-          const auto found = voxels.find({x + dx, y + dy, z + dz});
-          if (found == voxels.end()) continue;
-          for (const auto& [q, n] : found->second) {
-            const float distance = (q - p).squaredNorm();
-            if (distance < nearest) std::tie(nearest, node) = std::pair(distance, n);
-          }
-        }
-      }
-    }
-    return node;
-  };
   const auto width = static_cast<int>(truth.world_surface.size());
-  GreyImage found{width, 1, {}};
+  const GreyImage found{width, 1, nodesOf(map, truth.world_surface)};
   GreyImage objects{width, 1, {}};
-  for (std::size_t i = 0; i < truth.world_surface.size(); ++i) {
-    found.values.push_back(nodeAt(truth.world_surface[i]));
-    objects.values.push_back(static_cast<std::uint16_t>(2 + truth.object[i]));
-  }
+  for (const auto object : truth.object) objects.values.push_back(static_cast<std::uint16_t>(2 + object));
   return scoreSegmentation(found, objects);
+}
+
+std::vector<ObjectFate> objectFates(const MappedLog& map, const SeenScene& truth) {
+  const std::vector<std::uint16_t> node_of = nodesOf(map, truth.world_surface);
+  std::vector<std::map<std::uint16_t, double>> nodes(truth.objects);  // points of every object by node
+  std::map<std::uint16_t, std::map<double, std::size_t>> objects_of;  // of every node by their points
+  for (std::size_t i = 0; i < node_of.size(); ++i) nodes[truth.object[i]][node_of[i]] += 1.0;
+  for (std::size_t k = 0; k < nodes.size(); ++k) {
+    for (const auto& [node, points] : nodes[k]) objects_of[node][points] = k;
+  }
+  const auto ownerOf = [&](std::uint16_t node) { return objects_of.at(node).rbegin()->second; };
+  std::vector<ObjectFate> fates;
+  for (std::size_t k = 0; k < nodes.size(); ++k) {
+    ObjectFate fate{truth.names[k], 0.0, 0.0, 0.0, 0.0, 0.0, {}};
+    double most = 0.0;
+    for (const auto& [node, points] : nodes[k]) {
+      fate.points += points;
+      if (node == kNoNode) {
+        fate.nowhere += points;
+      } else if (ownerOf(node) != k) {
+        fate.in_another += points;
+      } else {
+        fate.in_other_half += points;
+        fate.found = std::max(fate.found, points);
+      }
+      if (node == kNoNode || points <= most) continue;
+      most = points;
+      fate.joined_with = ownerOf(node) == k ? "" : truth.names[ownerOf(node)];
+    }
+    fate.in_other_half -= fate.found;
+    for (double* share : {&fate.found, &fate.in_other_half, &fate.in_another, &fate.nowhere})
+      *share /= fate.points;
+    fates.push_back(fate);
+  }
+  return fates;
 }
 
 std::size_t matchedObjects(const MappedLog& a, const MappedLog& b, double distance) {

@@ -45,6 +45,7 @@ struct SeenScene {
   PointCloud world_surface;           ///< one point every 4 mm
   std::vector<std::uint16_t> object;  ///< of every point, from 0
   std::size_t objects = 0;
+  std::vector<std::string> names;  ///< of the objects
 };
 [[nodiscard]] SeenScene see(const CrowdedScene& scene);
 
@@ -54,6 +55,19 @@ struct SeenScene {
 /// Whether every object is one node: the overlap of nodes and objects on the surface that was seen, one node
 /// matched to one object. A point belongs to the node that has the nearest voxel within 8 mm.
 [[nodiscard]] SegmentationScore scoreIdentity(const MappedLog& map, const SeenScene& truth);
+
+/// What became of the surface of one object that was seen, in shares.
+struct ObjectFate {
+  std::string name;
+  double points = 0.0;  ///< of its surface
+  double found = 0.0;   ///< in the node that is matched with it
+  double in_other_half =
+      0.0;                  ///< in nodes that hold more of it than of any other object, but are not matched
+  double in_another = 0.0;  ///< in nodes of other objects
+  double nowhere = 0.0;     ///< in no node
+  std::string joined_with;  ///< object that has the node which holds most of this one, if another
+};
+[[nodiscard]] std::vector<ObjectFate> objectFates(const MappedLog& map, const SeenScene& truth);
 
 /// How many objects of `a` have one of `b` within `distance` metres, matched one to one, nearest first.
 [[nodiscard]] std::size_t matchedObjects(const MappedLog& a, const MappedLog& b, double distance);
