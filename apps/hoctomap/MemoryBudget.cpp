@@ -48,10 +48,10 @@ void MemoryBudget::requireRoom(std::uint64_t scan) {
   // What a scan gave back before its end counts as well. One that stayed below the highest point so far has
   // shown nothing new.
   if (now.peak > before_.peak)
-    largest_growth_ = std::max(largest_growth_, now.peak - std::min(now.peak, before_.now));
+    largest_growth_ = std::max(largest_growth_, now.peak - std::min(now.peak, before_.bytes));
   before_ = now;
-  if (now.now + largest_growth_ <= budget_) return;
-  throw LimitError("scan " + std::to_string(scan) + ": the program holds " + megabytes(now.now) +
+  if (now.bytes + largest_growth_ <= budget_) return;
+  throw LimitError("scan " + std::to_string(scan) + ": the program holds " + megabytes(now.bytes) +
                    " and may need up to " + megabytes(largest_growth_) +
                    " for a scan, more than its budget of " + megabytes(budget_) + " ([limits] max_memory)");
 }

@@ -37,7 +37,7 @@ std::string Progress::status(std::uint64_t scans, std::optional<std::size_t> nod
   if (total_) text << "/" << *total_;
   text << " scans, " << std::fixed << std::setprecision(1) << rate << " scans/s";
   if (nodes) text << ", " << *nodes << (*nodes == 1 ? " node" : " nodes");
-  text << ", " << residentMemory().now / 1'000'000 << " MB";
+  text << ", " << residentMemory().bytes / 1'000'000 << " MB";
   if (total_ && rate > 0.0 && scans <= *total_) {
     text << ", " << durationText(static_cast<double>(*total_ - scans) / rate) << " left";
   }

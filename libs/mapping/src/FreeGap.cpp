@@ -45,10 +45,12 @@ bool hasFreeGap(const ScanSight& sight, const PointCloud& a, const PointCloud& b
   std::erase_if(lines, [gap](const Line& line) { return line.length() > gap + kAsNear; });
   const Line line = std::ranges::max(lines, {}, &Line::height);
   const Eigen::Vector3f direction = (line.to - line.from).normalized();
+  bool seen_through = false;
   for (float at = kSkin; at <= line.length() - kSkin; at += kSpacing) {
     if (sight(line.from + at * direction) != Sight::seen_through) return false;
+    seen_through = true;
   }
-  return true;
+  return seen_through;
 }
 
 }  // namespace hoctomap
