@@ -36,28 +36,28 @@ class Sight {
   DepthImage image_{{320, 240, 300.0, 300.0, 160.0, 120.0}, {}};
 };
 
+/// Two faces of 10 cm, 10 cm apart, at 1 m.
+struct TwoFaces : Sight {
+  PointCloud left = face(1.0F, 0.1F, 0.1F, 0.1F);
+  PointCloud right = face(1.0F, -0.1F, 0.1F, 0.1F);
+};
+
 TEST(FreeGap, IsWhereAScanSeesThroughBetweenTwoThings) {
-  Sight z;
-  const PointCloud left = z.face(1.0F, 0.1F, 0.1F, 0.1F);
-  const PointCloud right = z.face(1.0F, -0.1F, 0.1F, 0.1F);
-  EXPECT_TRUE(z.hasGap(left, right));
-  EXPECT_FALSE(z.hasGap(left, {}));
+  const TwoFaces z;
+  EXPECT_TRUE(z.hasGap(z.left, z.right));
+  EXPECT_FALSE(z.hasGap(z.left, {}));
 }
 
 TEST(FreeGap, IsNoneWhereThePartsHangTogether) {
-  Sight z;
-  const PointCloud left = z.face(1.0F, 0.1F, 0.1F, 0.1F);
-  const PointCloud right = z.face(1.0F, -0.1F, 0.1F, 0.1F);
+  TwoFaces z;
   z.face(1.0F, 0.0F, 0.15F, 0.12F);
-  EXPECT_FALSE(z.hasGap(left, right));
+  EXPECT_FALSE(z.hasGap(z.left, z.right));
 }
 
 TEST(FreeGap, IsNoneBehindWhatHidesIt) {
-  Sight z;
-  const PointCloud left = z.face(1.0F, 0.1F, 0.1F, 0.1F);
-  const PointCloud right = z.face(1.0F, -0.1F, 0.1F, 0.1F);
+  TwoFaces z;
   z.face(0.5F, 0.0F, 0.03F, 0.2F);
-  EXPECT_FALSE(z.hasGap(left, right));
+  EXPECT_FALSE(z.hasGap(z.left, z.right));
 }
 
 TEST(FreeGap, IsNoneBetweenTheFrontOfAThingAndItsBack) {
@@ -76,12 +76,10 @@ TEST(FreeGap, MayBeTooNarrowToTell) {
 }
 
 TEST(FreeGap, IsNotShownByScansWithoutAnImage) {
-  Sight z;
-  const PointCloud left = z.face(1.0F, 0.1F, 0.1F, 0.1F);
-  const PointCloud right = z.face(1.0F, -0.1F, 0.1F, 0.1F);
+  const TwoFaces z;
   Measurement cloud;
-  cloud.world_points = left;
-  EXPECT_FALSE(hasFreeGap(ScanSight(cloud, 0.01, {}), left, right));
+  cloud.world_points = z.left;
+  EXPECT_FALSE(hasFreeGap(ScanSight(cloud, 0.01, {}), z.left, z.right));
 }
 
 }  // namespace

@@ -173,7 +173,7 @@ NodeId Merger::adopt(const MergePart& part, NodeId from, NodeId parent) {
   node.first_scan = merged_.scans + source.first_scan;
   node.last_scan = merged_.scans + source.last_scan;
   node.version = report_.scan;
-  node.confirmation = source.confirmation;
+  if (source.confirmation.waits) node.confirmation = source.confirmation;
   note(NodeEventKind::created, id, "node " + std::to_string(from.value) + " of map " + part.name);
   return id;
 }
